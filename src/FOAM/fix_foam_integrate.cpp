@@ -1,0 +1,852 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   This software is distributed under the GNU General Public License.
+   Wet-foam package: see the README file of the package.
+------------------------------------------------------------------------- */
+
+#include "fix_foam_integrate.h"
+
+#include "fix_foam_coarsen.h"
+#include "pair_durian_foam.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+#include "force.h"
+#include "memory.h"
+#include "modify.h"
+#include "neighbor.h"
+#include "output.h"
+#include "timer.h"
+#include "update.h"
+
+#include <cmath>
+#include <cstring>
+
+using namespace LAMMPS_NS;
+using namespace FixConst;
+
+/* ----------------------------------------------------------------------
+   fix ID all STYLE tolerance keyword value ...
+------------------------------------------------------------------------- */
+
+FixFoamIntegrate::FixFoamIntegrate(LAMMPS *lmp, int narg, char **arg) :
+    Fix(lmp, narg, arg), pair(nullptr), gas(nullptr), reduce(world), dim(domain->dimension),
+    variable(Variable::VOLUME), norm(Norm::MAX), dt_start(0.0), dt_limit(0.0),
+    drift_removed(false), time(0.0), h(0.0), h_before(0.0), accepted(0.0), rejected(0.0),
+    evaluations(0.0), error_last(0.0), columns(NCOLUMNS), lags(NLAGS), x_start(nullptr),
+    q_start(nullptr), rate(nullptr), nscratch(0), nlisted(0), x_listed(nullptr), radius_listed(nullptr),
+    list_is_new(false), stopping(false), have_lags(false)
+{
+  if (narg < 4) error->all(FLERR, "Fix {} needs the tolerance as first argument", style);
+  if (igroup != 0)
+    error->all(FLERR, "Fix {} needs group all; hold bubbles in place with fix setforce 0 0 0", style);
+
+  auto number = [&](const char *name, const char *text) {
+    const double value = utils::numeric(FLERR, text, false, lmp);
+    if (!std::isfinite(value) || value <= 0.0)
+      error->all(FLERR, "Fix {}: {} must be a number > 0, not {}", style, name, text);
+    return value;
+  };
+  control.tolerance = number("tolerance", arg[3]);
+
+  const std::string keywords = "dt0, dtmax, variable, norm, scheme, drift";
+  for (int iarg = 4; iarg < narg; iarg += 2) {
+    const std::string keyword = arg[iarg];
+    if (iarg + 2 > narg)
+      error->all(FLERR, "Fix {}: keyword {} needs a value (keywords are {})", style, keyword, keywords);
+    const std::string value = arg[iarg + 1];
+    auto one_of = [&](const char *first, const char *second) {
+      if (value != first && value != second)
+        error->all(FLERR, "Fix {}: {} must be {} or {}, not {}", style, keyword, first, second, value);
+      return value == second;
+    };
+    if (keyword == "dt0")
+      dt_start = number("dt0", arg[iarg + 1]);
+    else if (keyword == "dtmax")
+      dt_limit = number("dtmax", arg[iarg + 1]);
+    else if (keyword == "variable")
+      variable = one_of("volume", "radius") ? Variable::RADIUS : Variable::VOLUME;
+    else if (keyword == "norm")
+      norm = one_of("max", "rms") ? Norm::RMS : Norm::MAX;
+    else if (keyword == "scheme")
+      control.scheme = one_of("standard", "source") ? Foam::Scheme::SOURCE : Foam::Scheme::STANDARD;
+    else if (keyword == "drift")
+      drift_removed = one_of("keep", "remove");
+    else
+      error->all(FLERR, "Fix {}: unknown keyword {} (allowed are {})", style, keyword, keywords);
+  }
+
+  time_integrate = 1;
+  force_reneighbor = 1;
+  next_reneighbor = -1;
+  nevery = 1;
+
+  vector_flag = 1;
+  size_vector = 6;
+  global_freq = 1;
+  extvector = 0;
+
+  restart_global = 1;
+  restart_peratom = 1;
+  maxexchange = columns.count_in_use() + lags.count_in_use();
+  columns.use(atom->nmax);
+  atom->add_callback(Atom::GROW);
+  atom->add_callback(Atom::RESTART);
+}
+
+FixFoamIntegrate::~FixFoamIntegrate()
+{
+  atom->delete_callback(id, Atom::GROW);
+  atom->delete_callback(id, Atom::RESTART);
+  memory->destroy(x_start);
+  memory->destroy(q_start);
+  memory->destroy(rate);
+  memory->destroy(x_listed);
+  memory->destroy(radius_listed);
+}
+
+int FixFoamIntegrate::setmask()
+{
+  return INITIAL_INTEGRATE | PRE_EXCHANGE | POST_NEIGHBOR | PRE_FORCE | FINAL_INTEGRATE |
+      END_OF_STEP;
+}
+
+void FixFoamIntegrate::init()
+{
+  dim = domain->dimension;
+  pair = dynamic_cast<PairDurianFoam *>(force->pair_match("durian/foam", 0));
+  if (!pair) error->all(FLERR, "Fix {} needs pair_style durian/foam", style);
+  if (force->bond || force->angle || force->dihedral || force->improper || force->kspace)
+    error->all(FLERR, "Fix {} evaluates pair forces and fixes only: "
+               "bonds, angles, dihedrals, impropers and kspace are not allowed", style);
+  if (utils::strmatch(update->integrate_style, "^respa"))
+    error->all(FLERR, "Fix {} cannot be used with run_style respa: use verlet", style);
+
+  gas = nullptr;
+  int integrators = 0;
+  for (auto &ifix : modify->get_fix_list()) {
+    if (auto *found = dynamic_cast<FixFoamCoarsen *>(ifix)) gas = found;
+    if (ifix->time_integrate) integrators++;
+  }
+  if (integrators > 1)
+    error->all(FLERR, "Fix {} must be the only fix that integrates in time", style);
+
+  // what is switched off is not gathered
+
+  pair->gas_wanted = gas ? gas->wanted() : 0;
+  if (pair->neighbor_drag) lags.use(atom->nmax);
+}
+
+/* ----------------------------------------------------------------------
+   before a run
+------------------------------------------------------------------------- */
+
+void FixFoamIntegrate::setup_pre_exchange()
+{
+  check_bubbles();
+}
+
+void FixFoamIntegrate::check_bubbles()
+{
+  FoamTotals mine;
+  for (int i = 0; i < atom->nlocal; i++) {
+    const double R = atom->radius[i];
+    if (!(R > 0.0) || !std::isfinite(R)) mine.max[0] = MAX(mine.max[0], double(atom->tag[i]));
+  }
+  const double bad = reduce(mine).max[0];
+  if (bad > 0.0)
+    error->all(FLERR, "Fix {}: the radius of bubble {:.0f} is zero, negative or not a number: "
+               "set its diameter or delete it", style, bad);
+
+  // q follows R where a command has changed R since the last run
+
+  double *const q = columns[Q];
+  for (int i = 0; i < atom->nlocal; i++) {
+    const double R = atom->radius[i];
+    if (radius_of(q[i]) == R) continue;
+    if (variable == Variable::RADIUS)
+      q[i] = R;
+    else
+      q[i] = dim == 2 ? Foam::power_of_radius<2>(R) : Foam::power_of_radius<3>(R);
+  }
+}
+
+void FixFoamIntegrate::setup_post_neighbor()
+{
+  post_neighbor();
+}
+
+// The forces that LAMMPS computes before a run are those with which the last run ended, if
+// neighbor drag takes the same velocities as given.  Velocities that a command has set stay.
+
+void FixFoamIntegrate::setup_pre_force(int)
+{
+  if (!pair->neighbor_drag || !evaluates_again()) return;
+  double *const *const v = atom->v;
+  if (have_lags)
+    for (int i = 0; i < atom->nlocal; i++) {
+      bool same = true;
+      for (int k = 0; k < 3; k++) same = same && v[i][k] == lags[LASTX + k][i];
+      if (same)
+        for (int k = 0; k < 3; k++) v[i][k] = lags[LAGX + k][i];
+    }
+  comm->forward_comm();
+}
+
+void FixFoamIntegrate::setup(int)
+{
+  stopping = false;
+  const double *const *const v = atom->v;
+
+  if (evaluates_again() || h_before == 0.0) {
+    evaluations++;
+    exchange_rates();
+
+    // The history of steps is good for as long as the state is the one that it led to: if
+    // a command has changed the foam, the rates are no longer those at the end of the last run.
+
+    FoamTotals mine;
+    const bool lagged = pair->neighbor_drag && have_lags;
+    for (int i = 0; i < atom->nlocal; i++) {
+      for (int k = 0; k < dim; k++) {
+        const double now = velocity(i, k);
+        const double then = lagged ? lags[LASTX + k][i] : v[i][k];
+        mine.max[0] = MAX(mine.max[0], std::fabs(drift_removed ? 0.0 : now - then));
+        mine.max[1] = MAX(mine.max[1], std::fabs(now));
+      }
+      mine.max[2] = MAX(mine.max[2], std::fabs(rate[i] - columns[QDOT][i]));
+      mine.max[3] = MAX(mine.max[3], std::fabs(rate[i]));
+    }
+    const FoamTotals all = reduce(mine);
+    constexpr double SAME = 1.0e-6;    // well above rounding, well below any change of interest
+    if (all.max[0] > SAME * all.max[1] || all.max[2] > SAME * all.max[3]) h_before = 0.0;
+    take_rates();
+  }
+
+  if (h == 0.0) h = dt_start > 0.0 ? dt_start : update->dt;
+  update->update_time();
+  update->dt = MIN(h, largest_step());
+
+  take_population();
+  if (gas) {
+    const std::string reason = gas->end_reached();
+    if (!reason.empty()) stop_run(reason);
+  }
+}
+
+void FixFoamIntegrate::take_population()
+{
+  if (!gas) return;
+  FoamTotals mine;
+  for (int i = 0; i < atom->nlocal; i++) {
+    mine.sum[N] += 1.0;
+    mine.sum[RADII] += atom->radius[i];
+    mine.sum[GAS] += content(i);
+    mine.max[RADIUS] = MAX(mine.max[RADIUS], atom->radius[i]);
+  }
+  const FoamTotals all = reduce(mine);
+  gas->population = {all.sum[N], all.sum[RADII], all.sum[GAS], all.max[RADIUS]};
+}
+
+/* ----------------------------------------------------------------------
+   one timestep: steps are tried until one is accepted
+------------------------------------------------------------------------- */
+
+void FixFoamIntegrate::initial_integrate(int)
+{
+  const bool dump_foreseen = output->next_time_dump_any == update->ntimestep;
+  bool refused = false;
+  keep_start();
+
+  while (true) {
+    const double step = MIN(h, largest_step());
+    if (step < 1.0e-12 * natural_time() || time + step == time)
+      error->all(FLERR, "Fix {}: the step fell to {} at step {}, t = {}, with error {} above the "
+                 "tolerance {}: look for bad forces, raise the tolerance or lower dt0",
+                 style, step, update->ntimestep, time, error_last, control.tolerance);
+
+    judge(attempt(step));
+
+    // forces beyond the neighbor list are not trusted: list the start anew, or step less far
+
+    if (totals.max[MOVED] > list_margin()) {
+      return_to_start();
+      if (list_is_new) {
+        rejected++;
+        refused = true;
+        h = 0.5 * step;
+      } else {
+        rebuild_lists();
+        keep_start();
+      }
+      continue;
+    }
+
+    h = control.next(step, error_last, refused);
+    if (control.accepts(error_last)) {
+      accept(step);
+      break;
+    }
+    rejected++;
+    refused = true;
+    return_to_start();
+  }
+  schedule_time_dumps(dump_foreseen);
+  if (gas && gas->has_dead() && output_due()) next_reneighbor = update->ntimestep;
+}
+
+void FixFoamIntegrate::keep_start()
+{
+  if (atom->nmax > nscratch) {
+    nscratch = atom->nmax;
+    memory->grow(x_start, nscratch, 3, "foam:x_start");
+    memory->grow(q_start, nscratch, "foam:q_start");
+  }
+  const int nlocal = atom->nlocal;
+  if (nlocal == 0) return;
+  memcpy(&x_start[0][0], &atom->x[0][0], 3 * sizeof(double) * nlocal);
+  memcpy(q_start, columns[Q], sizeof(double) * nlocal);
+}
+
+void FixFoamIntegrate::return_to_start()
+{
+  const int nlocal = atom->nlocal;
+  if (nlocal == 0) return;
+  memcpy(&atom->x[0][0], &x_start[0][0], 3 * sizeof(double) * nlocal);
+  memcpy(columns[Q], q_start, sizeof(double) * nlocal);
+  if (gas)
+    for (int i = 0; i < nlocal; i++) atom->radius[i] = radius_of(q_start[i]);
+}
+
+/* ----------------------------------------------------------------------
+   everything that has to be known of a candidate, over all ranks at once:
+   its error, whether the list still holds, and the bubbles that it would leave
+------------------------------------------------------------------------- */
+
+void FixFoamIntegrate::judge(const Trial &trial)
+{
+  const double *const *const x = atom->x;
+  const double *const radius = atom->radius;
+  const double *const q = columns[Q];
+  const double smallest = gas ? gas->smallest_radius() : 0.0;
+
+  FoamTotals mine;
+  mine.sum[SQUARES] = trial.error_squares;
+  mine.max[ERROR] = trial.error_max;
+  mine.max[MOVED] = trial.moved;
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!(q_start[i] > 0.0)) continue;    // dead already
+    const double R = radius[i];
+
+    // as far from the listed state as this step goes, and the next if it repeats this one
+
+    double square = 0.0;
+    for (int k = 0; k < dim; k++) {
+      const double ahead = 2.0 * x[i][k] - x_start[i][k] - x_listed[i][k];
+      square += ahead * ahead;
+    }
+    const double growth = gas ? 2.0 * R - radius_of(q_start[i]) - radius_listed[i] : 0.0;
+    const double ahead = std::sqrt(square) + MAX(0.0, growth);
+    mine.max[AHEAD] = MAX(mine.max[AHEAD], MAX(ahead, moved_since_listed(i)));
+    if (!std::isfinite(square) || !std::isfinite(q[i])) mine.sum[BAD] += 1.0;
+
+    if (R < smallest || !(q[i] > 0.0)) {
+      mine.sum[REMOVED] += 1.0;
+      mine.sum[GAS_REMOVED] += content(i);
+    } else {
+      mine.sum[N] += 1.0;
+      mine.sum[RADII] += R;
+      mine.sum[GAS] += content(i);
+      mine.max[RADIUS] = MAX(mine.max[RADIUS], R);
+    }
+  }
+  totals = reduce(mine);
+
+  const int components = dim + (gas ? 1 : 0);
+  const double bubbles = totals.sum[N] + totals.sum[REMOVED];
+  error_last = totals.max[ERROR];
+  if (norm == Norm::RMS)
+    error_last = bubbles > 0.0 ? std::sqrt(totals.sum[SQUARES] / (bubbles * components)) : 0.0;
+  error_last /= pair->rin;
+  if (totals.sum[BAD] > 0.0) error_last = INFINITY;
+}
+
+void FixFoamIntegrate::accept(double step)
+{
+  keep_history();
+  if (gas) redistribute();    // lets bubbles grow a little: adds to AHEAD
+
+  time += step;
+  h_before = step;
+  accepted++;
+  list_is_new = false;
+  if (totals.max[AHEAD] > list_margin()) next_reneighbor = update->ntimestep;
+
+  const bool changed = update->dt != step;
+  update->atime += step;
+  update->atimestep = update->ntimestep;
+  update->dt = step;
+  if (changed) {
+    update->dt_default = 0;
+    force->pair->reset_dt();
+    for (auto &ifix : modify->get_fix_list()) ifix->reset_dt();
+  }
+
+  if (gas) {
+    gas->accepted(step, totals.sum[REMOVED], totals.sum[GAS_REMOVED]);
+    const std::string reason = gas->end_reached();
+    if (!reason.empty()) stop_run(reason);
+  }
+}
+
+// remove the smallest bubbles and share out their gas
+
+void FixFoamIntegrate::redistribute()
+{
+  double scale = 1.0;
+  if (totals.sum[REMOVED] > 0.0) {
+    if (!(totals.sum[GAS] > 0.0))
+      error->all(FLERR, "Fix {}: no bubbles are left after step {}, t = {}: all {:.0f} fell below "
+                 "rmin at once; lower rmin or the tolerance, or end the run earlier with nmin",
+                 style, update->ntimestep, time, totals.sum[REMOVED]);
+    const double factor =
+        Foam::redistribution_factor(totals.sum[GAS_REMOVED], totals.sum[GAS]);
+    scale = dim == 2 ? std::sqrt(factor) : std::cbrt(factor);
+    const double q_factor = variable == Variable::RADIUS ? scale : factor;
+    const double smallest = gas->smallest_radius();
+    double *const q = columns[Q];
+    double *const radius = atom->radius;
+    for (int i = 0; i < atom->nlocal; i++) {
+      if (radius[i] < smallest || !(q[i] > 0.0)) {
+        columns.clear(i);
+        radius[i] = 0.0;
+        for (int k = 0; k < 3; k++) atom->v[i][k] = 0.0;
+      } else {
+        q[i] *= q_factor;
+        radius[i] = radius_of(q[i]);
+      }
+    }
+  }
+  gas->population = {totals.sum[N], totals.sum[RADII] * scale,
+                     totals.sum[GAS] + totals.sum[GAS_REMOVED], totals.max[RADIUS] * scale};
+  totals.max[AHEAD] += totals.max[RADIUS] * (scale - 1.0);
+}
+
+/* ----------------------------------------------------------------------
+   evaluation out of turn, in the order in which LAMMPS evaluates in turn
+------------------------------------------------------------------------- */
+
+void FixFoamIntegrate::evaluate()
+{
+  timer->stamp(Timer::MODIFY);
+  comm->forward_comm();
+  timer->stamp(Timer::COMM);
+
+  const int nall = atom->nlocal + (force->newton ? atom->nghost : 0);
+  if (nall) memset(&atom->f[0][0], 0, 3 * sizeof(double) * nall);
+  if (modify->n_pre_force) modify->pre_force(0);
+  timer->stamp(Timer::MODIFY);
+  force->pair->compute(0, 0);
+  timer->stamp(Timer::PAIR);
+  if (force->newton) comm->reverse_comm();
+  timer->stamp(Timer::COMM);
+  if (modify->n_post_force_any) modify->post_force(0);
+  evaluations++;
+  exchange_rates();
+}
+
+void FixFoamIntegrate::exchange_rates()
+{
+  const int nlocal = atom->nlocal;
+  if (!gas) {
+    for (int i = 0; i < nlocal; i++) rate[i] = 0.0;
+    return;
+  }
+  gas->rates(rate);
+  const double *const radius = atom->radius;
+  for (int i = 0; i < nlocal; i++) {
+    if (variable == Variable::VOLUME)
+      rate[i] = dim == 2 ? Foam::power_rate<2>(rate[i]) : Foam::power_rate<3>(rate[i]);
+    else if (radius[i] > 0.0)
+      rate[i] = dim == 2 ? Foam::radius_rate<2>(rate[i], radius[i])
+                         : Foam::radius_rate<3>(rate[i], radius[i]);
+  }
+}
+
+double FixFoamIntegrate::velocity(int i, int k) const
+{
+  if (!(atom->radius[i] > 0.0)) return 0.0;
+  const double u =
+      pair->neighbor_drag ? Foam::mean_of_neighbors(pair->vsum[i][k], pair->contacts[i]) : 0.0;
+  return Foam::drag_velocity(atom->f[i][k], pair->mu0, u);
+}
+
+double FixFoamIntegrate::radius_of(double q) const
+{
+  if (variable == Variable::RADIUS) return q < 0.0 ? 0.0 : q;
+  return dim == 2 ? Foam::radius_of_power<2>(q) : Foam::radius_of_power<3>(q);
+}
+
+// gas content of a bubble; of a candidate it may be negative, and then counts as such
+
+double FixFoamIntegrate::content(int i) const
+{
+  double q = columns[Q][i];
+  if (variable == Variable::RADIUS)
+    q = dim == 2 ? Foam::power_of_radius<2>(q) : Foam::power_of_radius<3>(q);
+  return (dim == 2 ? Foam::CONTENT<2> : Foam::CONTENT<3>) *q;
+}
+
+/* ----------------------------------------------------------------------
+   the rates of the new state, from LAMMPS' own force computation
+------------------------------------------------------------------------- */
+
+void FixFoamIntegrate::final_integrate()
+{
+  if (!evaluates_again()) return;
+  evaluations++;
+  exchange_rates();
+  take_rates();
+}
+
+void FixFoamIntegrate::take_rates()
+{
+  double *const *const v = atom->v;
+  const int nlocal = atom->nlocal;
+  const bool lagged = pair->neighbor_drag;
+
+  FoamTotals mine;
+  for (int i = 0; i < nlocal; i++) {
+    for (int k = 0; k < 3; k++) {
+      if (lagged) lags[LAGX + k][i] = v[i][k];
+      v[i][k] = k < dim ? velocity(i, k) : 0.0;
+      mine.sum[k] += v[i][k];
+    }
+    if (atom->radius[i] > 0.0) mine.sum[3] += 1.0;
+    columns[QDOT][i] = rate[i];
+  }
+  have_lags = lagged;
+
+  // Averaging over neighbors leaves a common velocity as it is, so with neighbor drag the
+  // foam as a whole may drift; the remedy goes on in the frame in which it is at rest.
+
+  if (drift_removed) {
+    const FoamTotals all = reduce(mine);
+    for (int k = 0; k < dim; k++) {
+      const double mean = all.sum[3] > 0.0 ? all.sum[k] / all.sum[3] : 0.0;
+      for (int i = 0; i < nlocal; i++)
+        if (atom->radius[i] > 0.0) v[i][k] -= mean;
+    }
+  }
+}
+
+/* ----------------------------------------------------------------------
+   The neighbor list, which holds pairs closer than R_i + R_j + skin when built, is good for
+   as long as no bubble has moved and grown by more than half the skin.  LAMMPS itself looks
+   at motion only.
+------------------------------------------------------------------------- */
+
+void FixFoamIntegrate::post_neighbor()
+{
+  if (atom->nmax > nlisted) {
+    nlisted = atom->nmax;
+    memory->grow(x_listed, nlisted, 3, "foam:x_listed");
+    memory->grow(radius_listed, nlisted, "foam:radius_listed");
+    memory->grow(rate, nlisted, "foam:rate");
+  }
+  const int nlocal = atom->nlocal;
+  if (nlocal) {
+    memcpy(&x_listed[0][0], &atom->x[0][0], 3 * sizeof(double) * nlocal);
+    memcpy(radius_listed, atom->radius, sizeof(double) * nlocal);
+  }
+  if (domain->box_change) box_corners(corners_listed);
+  list_is_new = true;
+}
+
+double FixFoamIntegrate::moved_since_listed(int i) const
+{
+  double square = 0.0;
+  for (int k = 0; k < dim; k++) {
+    const double d = atom->x[i][k] - x_listed[i][k];
+    square += d * d;
+  }
+  return std::sqrt(square) + MAX(0.0, atom->radius[i] - radius_listed[i]);
+}
+
+// half of the skin, less what a moving box takes away (the two corners that moved most)
+
+double FixFoamIntegrate::list_margin() const
+{
+  if (!domain->box_change) return 0.5 * neighbor->skin;
+  double corners[8][3], first = 0.0, second = 0.0;
+  box_corners(corners);
+  for (int c = 0; c < 8; c++) {
+    double square = 0.0;
+    for (int k = 0; k < dim; k++)
+      square += (corners[c][k] - corners_listed[c][k]) * (corners[c][k] - corners_listed[c][k]);
+    const double d = std::sqrt(square);
+    if (d > first) {
+      second = first;
+      first = d;
+    } else
+      second = MAX(second, d);
+  }
+  return MAX(0.0, 0.5 * (neighbor->skin - (first + second)));
+}
+
+void FixFoamIntegrate::box_corners(double (*corners)[3]) const
+{
+  const double yz = domain->yz, xz = domain->xz, xy = domain->xy;    // 0 in an orthogonal box
+  for (int c = 0; c < 8; c++) {
+    const double a = c & 1, b = (c >> 1) & 1, d = (c >> 2) & 1;
+    corners[c][0] = domain->boxlo[0] + a * domain->xprd + b * xy + d * xz;
+    corners[c][1] = domain->boxlo[1] + b * domain->yprd + d * yz;
+    corners[c][2] = domain->boxlo[2] + d * domain->zprd;
+  }
+}
+
+// out of turn, as Verlet::run() does it in turn
+
+void FixFoamIntegrate::rebuild_lists()
+{
+  timer->stamp(Timer::MODIFY);
+  modify->pre_exchange();
+  if (domain->triclinic) domain->x2lamda(atom->nlocal);
+  domain->pbc();
+  if (domain->box_change) {
+    domain->reset_box();
+    comm->setup();
+    if (neighbor->style) neighbor->setup_bins();
+  }
+  comm->exchange();
+  if (atom->sortfreq > 0 && update->ntimestep >= atom->nextsort) atom->sort();
+  comm->borders();
+  if (domain->triclinic) domain->lamda2x(atom->nlocal + atom->nghost);
+  if (modify->n_pre_neighbor) modify->pre_neighbor();
+  timer->stamp(Timer::COMM);
+  neighbor->build(1);
+  modify->post_neighbor();
+  timer->stamp(Timer::NEIGH);
+}
+
+// Bubbles that have outgrown the cutoffs need new ones.  A step that writes a restart file
+// also leaves the order of bubbles and the list just as a run from that file will find them,
+// so that it goes on bit by bit.
+
+void FixFoamIntegrate::pre_exchange()
+{
+  const bool restart_due = update->ntimestep == output->next_restart;
+  if (restart_due || pair->outgrown()) pair->refresh();
+  if (restart_due) {
+    atom->setup();
+    atom->nextsort = update->ntimestep;
+  }
+}
+
+/* ----------------------------------------------------------------------
+   output and the end of a run
+------------------------------------------------------------------------- */
+
+// Dumps by time are written at the first step that has reached their time.  LAMMPS asks for
+// per-bubble energies before a step is known; where it did not, the dump waits a step.
+
+void FixFoamIntegrate::schedule_time_dumps(bool foreseen)
+{
+  if (!output->any_time_dumps) return;
+  const bigint now = update->ntimestep;
+  const double after_next = update->atime + MIN(h, largest_step());
+  const double slack = 1.0e-6 * update->dt;    // as in LAMMPS
+
+  output->next_dump_any = output->next_time_dump_any = MAXBIGINT;
+  for (int d = 0; d < output->ndump; d++) {
+    if (output->mode_dump[d] == 1) {
+      const double target = output->next_time_dump[d] - slack;
+      bigint &next = output->next_dump[d];
+      if (update->atime >= target && foreseen)
+        next = now;
+      else if (update->atime >= target || after_next >= target)
+        next = now + 1;
+      else
+        next = MAXBIGINT;    // looked at again in the next step
+      output->next_time_dump_any = MIN(output->next_time_dump_any, next);
+    }
+    output->next_dump_any = MIN(output->next_dump_any, output->next_dump[d]);
+  }
+  output->next = MIN(MIN(output->next_dump_any, output->next_restart), output->next_thermo);
+}
+
+// will anything look at the bubbles in this step? Then the dead must be out
+
+bool FixFoamIntegrate::output_due() const
+{
+  const bigint now = update->ntimestep;
+  if (stopping || output->next == now || now == update->laststep) return true;
+  for (int m = 0; m < modify->nfix; m++) {
+    const Fix *const ifix = modify->fix[m];
+    if (ifix != this && (modify->fmask[m] & END_OF_STEP) && ifix->nevery > 0 &&
+        now % ifix->nevery == 0)
+      return true;
+  }
+  return false;
+}
+
+void FixFoamIntegrate::stop_run(const std::string &reason)
+{
+  stopping = true;
+  timer->force_timeout();    // ends the run after this step, as fix halt does
+  if (comm->me == 0)
+    utils::logmesg(lmp, "Fix {}: coarsening ended at step {}, t = {:.8}: {}\n", style,
+                   update->ntimestep, update->atime, reason);
+}
+
+// The last state is worth a line of thermo output.  Its energy and virial were not asked for
+// when the step began.
+
+void FixFoamIntegrate::end_of_step()
+{
+  const bigint now = update->ntimestep;
+  if (!stopping || output->next_thermo == now) return;
+  const int nall = atom->nlocal + (force->newton ? atom->nghost : 0);
+  if (nall) memset(&atom->f[0][0], 0, 3 * sizeof(double) * nall);
+  if (modify->n_pre_force) modify->pre_force(VIRIAL_PAIR | VIRIAL_ATOM);
+  force->pair->compute(ENERGY_GLOBAL | ENERGY_ATOM, VIRIAL_PAIR | VIRIAL_ATOM);
+  if (force->newton) comm->reverse_comm();
+  if (modify->n_post_force_any) modify->post_force(VIRIAL_PAIR | VIRIAL_ATOM);
+  update->eflag_global = update->eflag_atom = now;
+  update->vflag_global = update->vflag_atom = now;
+  output->next_thermo = output->next = now;
+}
+
+void FixFoamIntegrate::post_run()
+{
+  if (stopping) timer->reset_timeout();
+  if (lags.in_use())
+    for (int i = 0; i < atom->nlocal; i++)
+      for (int k = 0; k < 3; k++) lags[LASTX + k][i] = atom->v[i][k];
+}
+
+/* ---------------------------------------------------------------------- */
+
+// in which a spring relaxes; else in which a bubble coarsens
+
+double FixFoamIntegrate::natural_time() const
+{
+  const double sigma0 = pair->stiffest();
+  if (sigma0 > 0.0) return pair->mu0 / sigma0;
+  return gas && gas->K > 0.0 ? pair->rin * pair->rin / gas->K : 1.0;
+}
+
+// by default one unit of scaled time, or a thousand relaxation times at fixed radii
+
+double FixFoamIntegrate::largest_step() const
+{
+  if (dt_limit > 0.0) return dt_limit;
+  return gas && gas->K > 0.0 ? pair->rin * pair->rin / gas->K : 1000.0 * natural_time();
+}
+
+double FixFoamIntegrate::compute_vector(int n)
+{
+  switch (n) {
+    case 0: return time;
+    case 1: return h_before;
+    case 2: return accepted;
+    case 3: return rejected;
+    case 4: return evaluations;
+    default: return error_last;
+  }
+}
+
+/* ----------------------------------------------------------------------
+   per-bubble numbers travel with the bubbles
+------------------------------------------------------------------------- */
+
+void FixFoamIntegrate::grow_arrays(int nmax)
+{
+  columns.grow(nmax);
+  lags.grow(nmax);
+}
+
+void FixFoamIntegrate::copy_arrays(int i, int j, int)
+{
+  columns.copy(i, j);
+  lags.copy(i, j);
+}
+
+void FixFoamIntegrate::set_arrays(int i)
+{
+  columns.clear(i);
+  lags.clear(i);
+}
+
+int FixFoamIntegrate::pack_exchange(int i, double *buf)
+{
+  const int m = columns.pack(i, buf);
+  return m + lags.pack(i, buf + m);
+}
+
+int FixFoamIntegrate::unpack_exchange(int i, double *buf)
+{
+  const int m = columns.unpack(i, buf);
+  return m + lags.unpack(i, buf + m);
+}
+
+int FixFoamIntegrate::pack_restart(int i, double *buf)
+{
+  // in mid-run the last velocities are the present ones
+
+  if (lags.in_use() && update->whichflag == 1)
+    for (int k = 0; k < 3; k++) lags[LASTX + k][i] = atom->v[i][k];
+  buf[0] = size_restart(i);
+  return 1 + pack_exchange(i, buf + 1);
+}
+
+void FixFoamIntegrate::unpack_restart(int i, int nth)
+{
+  const double *extra = atom->extra[i];
+  for (int m = 0; m < nth; m++) extra += static_cast<int>(*extra);
+  const int count = static_cast<int>(*extra++) - 1;
+  extra += columns.unpack(i, extra);
+  if (count > columns.count()) {
+    if (!lags.in_use()) lags.use(atom->nmax);
+    lags.unpack(i, extra);
+    have_lags = true;
+  }
+}
+
+int FixFoamIntegrate::size_restart(int)
+{
+  return 1 + columns.count() + lags.count();
+}
+
+int FixFoamIntegrate::maxsize_restart()
+{
+  return 1 + columns.count_in_use() + lags.count_in_use();
+}
+
+void FixFoamIntegrate::write_restart(FILE *fp)
+{
+  const double values[7] = {time, h, h_before, accepted, rejected, evaluations, error_last};
+  if (comm->me == 0) {
+    const int size = sizeof(values);
+    fwrite(&size, sizeof(int), 1, fp);
+    fwrite(values, sizeof(double), 7, fp);
+  }
+}
+
+void FixFoamIntegrate::restart(char *buf)
+{
+  double *const all[7] = {&time,     &h,           &h_before,  &accepted,
+                          &rejected, &evaluations, &error_last};
+  const auto *values = (const double *) buf;
+  for (int m = 0; m < 7; m++) *all[m] = values[m];
+}
+
+double FixFoamIntegrate::memory_usage()
+{
+  return columns.bytes() + lags.bytes() + sizeof(double) * (4.0 * nscratch + 5.0 * nlisted);
+}

@@ -1,0 +1,224 @@
+/* ----------------------------------------------------------------------
+   The physics of the wet-foam model, one function for each formula.
+
+   Plain inline functions without LAMMPS types, callable on the host and on a
+   device: the base styles, the KOKKOS styles and the unit tests all use these.
+   D is the dimension, 2 or 3.  Any consistent set of units: R is a length,
+   sigma0 a force per length in units where the spring constant of a pair of
+   bubbles is sigma0 <R_in> / (R_i + R_j), <R_in> the mean radius at the start of
+   the simulation.
+
+   Sources:
+     [D95]  D. J. Durian, Phys. Rev. Lett. 75, 4780 (1995)
+     [G00]  B. S. Gardiner, B. Z. Dlugogorski, G. J. Jameson,
+            Phil. Mag. A 80, 981 (2000)
+     [K18]  K. Khakalo, K. Baumgarten, B. P. Tighe, A. Puisto,
+            Phys. Rev. E 98, 012607 (2018)
+     [L20]  J. Lankinen, thesis on the simulation of wet foams on GPUs (2020)
+------------------------------------------------------------------------- */
+
+#ifndef LMP_FOAM_PHYSICS_H
+#define LMP_FOAM_PHYSICS_H
+
+#include <cmath>
+
+#if defined(__CUDACC__) || defined(__HIPCC__)
+#define FOAM_FUNCTION __host__ __device__ inline
+#else
+#define FOAM_FUNCTION inline
+#endif
+
+namespace Foam {
+
+inline constexpr double PI = 3.14159265358979323846;
+
+// ---------------------------------------------------------------------- one bubble
+
+// R^D, the variable in which the gas content of a bubble is linear; the
+// integrators advance this and not R, so that the sum of gas is a linear
+// invariant and nothing is singular where a bubble vanishes
+
+template <int D> FOAM_FUNCTION double power_of_radius(double R)
+{
+  return D == 2 ? R * R : R * R * R;
+}
+
+template <int D> FOAM_FUNCTION double radius_of_power(double q)
+{
+  if (!(q > 0.0)) return q == q ? 0.0 : q;    // used up: no radius; NaN stays NaN
+  return D == 2 ? std::sqrt(q) : std::cbrt(q);
+}
+
+// gas content is V = CONTENT<D> R^D: pi R^2 or (4/3) pi R^3
+
+template <int D> inline constexpr double CONTENT = D == 2 ? PI : 4.0 * PI / 3.0;
+
+// surface: 2 pi R (a length) or 4 pi R^2
+
+template <int D> FOAM_FUNCTION double surface(double R)
+{
+  return D == 2 ? 2.0 * PI * R : 4.0 * PI * R * R;
+}
+
+// ---------------------------------------------------------------------- two bubbles
+
+// Square of the lens radius h of two overlapping bubbles at distance r.  With
+// a = (r^2 + R_j^2 - R_i^2) / (2 r), h^2 = R_j^2 - a^2 is the squared height of
+// the triangle with sides r, R_i, R_j; Heron's product loses no digits where
+// the bubbles just touch.  Once the lens plane has passed the centre of the
+// smaller bubble, r^2 <= |R_i^2 - R_j^2|, h would shrink again and turn
+// imaginary: there the smaller bubble shows its full cross-section.
+
+FOAM_FUNCTION double lens_radius_squared(double r, double Ri, double Rj)
+{
+  const double smaller = Ri < Rj ? Ri : Rj;
+  if (r * r <= std::fabs((Ri - Rj) * (Ri + Rj))) return smaller * smaller;
+  const double h2 =
+      (Ri + Rj - r) * (Ri + Rj + r) * ((r + Ri - Rj) * (r + Rj - Ri)) / (4.0 * r * r);
+  return h2 > 0.0 ? h2 : 0.0;
+}
+
+// contact area of two touching bubbles: 2 h (a length) or pi h^2
+
+template <int D> FOAM_FUNCTION double contact_area(double r, double Ri, double Rj)
+{
+  const double h2 = lens_radius_squared(r, Ri, Rj);
+  return D == 2 ? 2.0 * std::sqrt(h2) : PI * h2;
+}
+
+// Overlap spring [D95]: magnitude of the repulsion and its potential,
+// F = sigma0 <R_in> overlap / (R_i + R_j), U = sigma0 <R_in> overlap^2 / (2 (R_i + R_j));
+// stiffness = sigma0 <R_in>
+
+FOAM_FUNCTION double spring_force(double stiffness, double overlap, double Rsum)
+{
+  return stiffness * overlap / Rsum;
+}
+
+FOAM_FUNCTION double spring_energy(double stiffness, double overlap, double Rsum)
+{
+  return 0.5 * stiffness * overlap * overlap / Rsum;
+}
+
+// one bubble's share of the energy of [L20], E = (1/2) sigma0 sum_i sum_j overlap^2
+// over ordered pairs; not the potential of the force, kept to compare curves
+
+FOAM_FUNCTION double durian_energy(double sigma0, double overlap)
+{
+  return 0.5 * sigma0 * overlap * overlap;
+}
+
+// sign of the fixed direction in which coincident centres are pushed apart:
+// opposite for the two partners, whichever of them asks
+
+template <class Tag> FOAM_FUNCTION double coincident_sign(Tag i, Tag j)
+{
+  return i < j ? 1.0 : -1.0;
+}
+
+// Gas that i takes from j through the film between them, per permeability K:
+// A_ij (1/R_j - 1/R_i) [G00]; changes sign exactly when i and j are swapped
+
+FOAM_FUNCTION double film_exchange(double area, double Ri, double Rj)
+{
+  return area * ((Ri - Rj) / (Ri * Rj));
+}
+
+// Overdamped motion: mu0 (v_i - u_i) = F_i, where u_i is the velocity of the liquid around
+// bubble i: 0, or the mean of the velocities of the bubbles in contact (0 without any) [D95, L20]
+
+FOAM_FUNCTION double drag_velocity(double F, double mu0, double u)
+{
+  return F / mu0 + u;
+}
+
+FOAM_FUNCTION double mean_of_neighbors(double sum, double contacts)
+{
+  return contacts > 0.0 ? sum / contacts : 0.0;
+}
+
+// ---------------------------------------------------------------------- gas through the liquid
+
+// Both laws exchange gas in proportion to a weight of the free surface,
+//   Vdot_i = c w_i (1/rho - 1/R_i),   rho = (sum w) / (sum w / R),
+// where rho, the radius that neither grows nor shrinks, conserves the gas:
+//   AREA [K18, L20]  w = Af_i        c = kappa K <A_in> / <A>
+//   LSW              w = Af_i / R_i  c = kappa K <R_in>
+// The second has a diffusion layer as thick as the bubble; for free bubbles in
+// 3D it is the law of Lifshitz, Slyozov and Wagner, with rho = <R>.
+
+enum class LiquidLaw { AREA, LSW };
+
+// Af_i = A_i - sum_j A_ij; a small bubble squeezed by many has none left
+
+FOAM_FUNCTION double free_area(double surface, double contact_area_sum)
+{
+  const double free = surface - contact_area_sum;
+  return free > 0.0 ? free : 0.0;
+}
+
+FOAM_FUNCTION double liquid_weight(LiquidLaw law, double free_area, double R)
+{
+  return law == LiquidLaw::AREA ? free_area : free_area / R;
+}
+
+FOAM_FUNCTION double liquid_coefficient(LiquidLaw law, double kappa, double K, double Rin,
+                                        double Ain, double Amean)
+{
+  return kappa * K * (law == LiquidLaw::AREA ? Ain / Amean : Rin);
+}
+
+// 1/rho from the sums over all bubbles; without any free surface there is no exchange,
+// and every weight that multiplies the result is zero
+
+FOAM_FUNCTION double inverse_critical_radius(double weight_sum, double weight_over_R_sum)
+{
+  return weight_sum > 0.0 ? weight_over_R_sum / weight_sum : 0.0;
+}
+
+FOAM_FUNCTION double liquid_exchange(double coefficient, double weight, double inverse_rho,
+                                     double R)
+{
+  return coefficient * weight * (inverse_rho - 1.0 / R);
+}
+
+// ---------------------------------------------------------------------- rates and removal
+
+// rate of q = R^D and of R itself for a rate of gas content Vdot:
+// V = CONTENT<D> q, and Rdot = Vdot / A
+
+template <int D> FOAM_FUNCTION double power_rate(double Vdot)
+{
+  return Vdot / CONTENT<D>;
+}
+
+template <int D> FOAM_FUNCTION double radius_rate(double Vdot, double R)
+{
+  return Vdot / surface<D>(R);
+}
+
+// Survivors of a removal take the removed gas in proportion to their own,
+// V -> V (1 + Vexcess / sum V): the factor of V, and of q = R^D
+
+FOAM_FUNCTION double redistribution_factor(double Vexcess, double Vsurvivors)
+{
+  return 1.0 + Vexcess / Vsurvivors;
+}
+
+// gas fraction; above 1 it counts overlaps twice
+
+FOAM_FUNCTION double gas_fraction(double Vsum, double Vbox)
+{
+  return Vsum / Vbox;
+}
+
+// scaled time tau = K t / <R_in>^2
+
+FOAM_FUNCTION double scaled_time(double K, double t, double Rin)
+{
+  return K * t / (Rin * Rin);
+}
+
+}    // namespace Foam
+
+#endif

@@ -1,0 +1,66 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   This software is distributed under the GNU General Public License.
+   Wet-foam package: see the README file of the package.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_FOAM_REDUCE_H
+#define LMP_FOAM_REDUCE_H
+
+#include <mpi.h>
+
+namespace LAMMPS_NS {
+
+// Sums and maxima over all ranks in one MPI_Allreduce instead of two.
+
+struct FoamTotals {
+  double sum[12] = {};
+  double max[4] = {};
+};
+
+class FoamReduce {
+ public:
+  explicit FoamReduce(MPI_Comm comm) : world(comm)
+  {
+    MPI_Type_contiguous(sizeof(FoamTotals) / sizeof(double), MPI_DOUBLE, &type);
+    MPI_Type_commit(&type);
+    MPI_Op_create(&combine, 1, &op);
+  }
+  FoamReduce(const FoamReduce &) = delete;
+  FoamReduce &operator=(const FoamReduce &) = delete;
+  ~FoamReduce()
+  {
+    MPI_Op_free(&op);
+    MPI_Type_free(&type);
+  }
+
+  FoamTotals operator()(const FoamTotals &mine) const
+  {
+    FoamTotals all;
+    MPI_Allreduce(&mine, &all, 1, type, op, world);
+    return all;
+  }
+
+ private:
+  MPI_Comm world;
+  MPI_Datatype type;
+  MPI_Op op;
+
+  static void combine(void *in, void *inout, int *n, MPI_Datatype *)
+  {
+    const auto *a = static_cast<const FoamTotals *>(in);
+    auto *b = static_cast<FoamTotals *>(inout);
+    for (int k = 0; k < *n; k++) {
+      for (int m = 0; m < 12; m++) b[k].sum[m] += a[k].sum[m];
+      for (int m = 0; m < 4; m++)
+        if (a[k].max[m] > b[k].max[m]) b[k].max[m] = a[k].max[m];
+    }
+  }
+};
+
+}    // namespace LAMMPS_NS
+
+#endif

@@ -1,0 +1,79 @@
+/* ----------------------------------------------------------------------
+   The numbers of the adaptive predictor-corrector, apart from any state.
+
+   Adams-Bashforth predictor and Adams-Moulton corrector of order 2 with a
+   variable step (E. Hairer, S. P. Norsett, G. Wanner, Solving Ordinary
+   Differential Equations I, section III.5), w = h / h_before:
+
+     y*      = y_n + h [(1 + w/2) f_n - (w/2) f_{n-1}]
+     y_{n+1} = y_n + (h/2) (f(y*) + f_n)
+------------------------------------------------------------------------- */
+
+#ifndef LMP_FOAM_STEPPER_H
+#define LMP_FOAM_STEPPER_H
+
+#include "foam_physics.h"
+
+namespace Foam {
+
+// STANDARD: coefficients for the true ratio of steps, rates evaluated again at the
+// corrected state, step control by the order of the error.
+// SOURCE: as the thesis [L20] does: constant coefficients (w = 1), the rates of the
+// predicted state taken for those of the corrected one, 0.5 and 1.9 as step factors.
+
+enum class Scheme { STANDARD, SOURCE };
+
+struct Predictor {
+  double now, before;    // y* = y_n + now f_n + before f_{n-1}
+};
+
+FOAM_FUNCTION Predictor predictor(Scheme scheme, double h, double h_before)
+{
+  if (!(h_before > 0.0)) return {h, 0.0};    // no history yet: Euler
+  const double w = scheme == Scheme::SOURCE ? 1.0 : h / h_before;
+  return {h * (1.0 + 0.5 * w), -0.5 * h * w};
+}
+
+FOAM_FUNCTION double predict(double y, double now, double before, const Predictor &p)
+{
+  return y + (p.now * now + p.before * before);
+}
+
+FOAM_FUNCTION double correct(double y, double now, double predicted, double h)
+{
+  return y + 0.5 * h * (predicted + now);
+}
+
+// Step control.  The distance of corrector and predictor is of order h^3 (h^2 after an
+// Euler start), so the step that just meets the tolerance is h (tol / error)^(1/3).
+
+struct StepControl {
+  Scheme scheme = Scheme::STANDARD;
+  double tolerance = 1.0e-5;
+
+  static constexpr double GROWTH = 1.9, SHRINK = 0.2, SAFETY = 0.9, HALF = 0.5;
+
+  bool accepts(double error) const { return error <= tolerance; }    // NaN is refused
+
+  // after_rejection: the same step has been refused before and must not grow again
+
+  double next(double h, double error, bool after_rejection) const
+  {
+    const bool accepted = accepts(error);
+    if (scheme == Scheme::SOURCE) return accepted ? GROWTH * h : HALF * h;
+    double factor = SHRINK;
+    if (error == 0.0)
+      factor = GROWTH;
+    else if (std::isfinite(error))
+      factor = SAFETY * std::cbrt(tolerance / error);
+    if (!(factor < GROWTH)) factor = GROWTH;
+    if (!(factor > SHRINK)) factor = SHRINK;
+    if (accepted && after_rejection && factor > 1.0) factor = 1.0;
+    if (!accepted && factor > SAFETY) factor = SAFETY;
+    return factor * h;
+  }
+};
+
+}    // namespace Foam
+
+#endif

@@ -1,0 +1,562 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   This software is distributed under the GNU General Public License.
+   Wet-foam package: see the README file of the package.
+------------------------------------------------------------------------- */
+
+#include "pair_durian_foam.h"
+
+#include "foam_physics.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "compute.h"
+#include "domain.h"
+#include "error.h"
+#include "fix.h"
+#include "force.h"
+#include "memory.h"
+#include "modify.h"
+#include "neigh_list.h"
+#include "neighbor.h"
+
+#include <cmath>
+#include <cstring>
+
+using namespace LAMMPS_NS;
+
+// most values a bubble can have in reverse communication: all sums at once
+static constexpr int MAX_SUMS = 8;
+
+/* ---------------------------------------------------------------------- */
+
+PairDurianFoam::PairDurianFoam(LAMMPS *lmp) :
+    Pair(lmp), contacts(nullptr), vsum(nullptr), area(nullptr), film(nullptr), espring(nullptr),
+    edurian(nullptr), sigma0(nullptr)
+{
+  single_enable = 1;
+  restartinfo = 1;
+  writedata = 1;
+  finitecutflag = 1;
+  no_virial_fdotr_compute = 1;    // a bubble may touch its own image: tally pair by pair
+  comm_reverse = MAX_SUMS;
+
+  mu0 = 1.0;
+  rin = ain = 0.0;
+  rin_fixed = ain_fixed = false;
+  neighbor_drag = false;
+  gas_wanted = 0;
+  headroom = 1.2;
+  cutoff_radius = 0.0;
+  nmax = 0;
+  gathered = 0;
+}
+
+/* ---------------------------------------------------------------------- */
+
+PairDurianFoam::~PairDurianFoam()
+{
+  if (copymode) return;
+
+  if (allocated) {
+    memory->destroy(setflag);
+    memory->destroy(cutsq);
+    memory->destroy(sigma0);
+  }
+  memory->destroy(contacts);
+  memory->destroy(vsum);
+  memory->destroy(area);
+  memory->destroy(film);
+  memory->destroy(espring);
+  memory->destroy(edurian);
+}
+
+/* ----------------------------------------------------------------------
+   spring forces, and beside them, in the same pass, what drag and gas exchange need
+------------------------------------------------------------------------- */
+
+void PairDurianFoam::compute(int eflag, int vflag)
+{
+  ev_init(eflag, vflag);
+  dispatch(FORCE | (neighbor_drag ? DRAG : 0u) | gas_wanted);
+}
+
+void PairDurianFoam::gather()
+{
+  ev_unset();
+  dispatch(ALL_BUT_FORCE);
+}
+
+void PairDurianFoam::dispatch(unsigned what)
+{
+  grow_sums(what);
+  const bool newton = force->newton_pair;
+  clear_sums(what, atom->nlocal + (newton ? atom->nghost : 0));
+
+  // every combination that occurs is a loop of its own, so what is off costs nothing
+
+  auto run = [&]<int D, unsigned WHAT>() {
+    if (newton) {
+      evflag ? eval<D, WHAT, true, true>() : eval<D, WHAT, false, true>();
+    } else {
+      evflag ? eval<D, WHAT, true, false>() : eval<D, WHAT, false, false>();
+    }
+  };
+  auto choose = [&]<int D>() {
+    switch (what) {
+      case FORCE: return run.template operator()<D, FORCE>();
+      case FORCE | DRAG: return run.template operator()<D, FORCE | DRAG>();
+      case FORCE | FILM: return run.template operator()<D, FORCE | FILM>();
+      case FORCE | FILM | DRAG: return run.template operator()<D, FORCE | FILM | DRAG>();
+      case FORCE | FILM | AREA: return run.template operator()<D, FORCE | FILM | AREA>();
+      case FORCE | FILM | AREA | DRAG:
+        return run.template operator()<D, FORCE | FILM | AREA | DRAG>();
+      case ALL_BUT_FORCE: return run.template operator()<D, ALL_BUT_FORCE>();
+      default: error->one(FLERR, "Pair style durian/foam: no loop gathers {}", what);
+    }
+  };
+  if (domain->dimension == 2)
+    choose.operator()<2>();
+  else
+    choose.operator()<3>();
+
+  gathered = what & ~FORCE;
+  if (newton && gathered) comm->reverse_comm(this);
+}
+
+template <int D, unsigned WHAT, bool TALLY, bool NEWTON> void PairDurianFoam::eval()
+{
+  const double *const *const x = atom->x;
+  const double *const *const v = atom->v;
+  double *const *const f = atom->f;
+  const double *const radius = atom->radius;
+  const int *const type = atom->type;
+  const tagint *const tag = atom->tag;
+  const int nlocal = atom->nlocal;
+
+  for (int ii = 0; ii < list->inum; ii++) {
+    const int i = list->ilist[ii];
+    const double Ri = radius[i];
+    if (!(Ri > 0.0)) continue;    // dead
+    const int *const jlist = list->firstneigh[i];
+    const int jnum = list->numneigh[i];
+    const double xi[3] = {x[i][0], x[i][1], D == 3 ? x[i][2] : 0.0};
+    const double *const sigma0_i = sigma0[type[i]];
+    double fi[3] = {}, vsum_i[3] = {};
+    double contacts_i = 0.0, area_i = 0.0, film_i = 0.0, espring_i = 0.0, edurian_i = 0.0;
+
+    for (int jj = 0; jj < jnum; jj++) {
+      const int j = jlist[jj] & NEIGHMASK;
+      const double Rj = radius[j];
+      const double Rsum = Ri + Rj;
+      double del[3] = {xi[0] - x[j][0], xi[1] - x[j][1], D == 3 ? xi[2] - x[j][2] : 0.0};
+      const double rsq = del[0] * del[0] + del[1] * del[1] + del[2] * del[2];
+      if (!(rsq < Rsum * Rsum) || !(Rj > 0.0)) continue;
+
+      const bool add_j = NEWTON || j < nlocal;
+      const double r = std::sqrt(rsq);
+      const double overlap = Rsum - r;
+      const double sigma = sigma0_i[type[j]];
+
+      if constexpr (WHAT & FORCE) {
+        const double F = Foam::spring_force(sigma * rin, overlap, Rsum);
+        double F_over_r = 0.0;    // stays 0 at r = 0, where force and virial have no direction
+        double F_xyz[3];
+        if (r > 0.0) {
+          F_over_r = F / r;
+          for (int k = 0; k < 3; k++) F_xyz[k] = F_over_r * del[k];
+        } else {
+          F_xyz[0] = Foam::coincident_sign(tag[i], tag[j]) * F;
+          F_xyz[1] = F_xyz[2] = 0.0;
+        }
+        for (int k = 0; k < D; k++) fi[k] += F_xyz[k];
+        if (add_j)
+          for (int k = 0; k < D; k++) f[j][k] -= F_xyz[k];
+        if constexpr (TALLY)
+          ev_tally(i, j, nlocal, NEWTON,
+                   eflag_either ? Foam::spring_energy(sigma * rin, overlap, Rsum) : 0.0, 0.0,
+                   F_over_r, del[0], del[1], del[2]);
+      }
+      if constexpr (WHAT & DRAG) {
+        contacts_i += 1.0;
+        for (int k = 0; k < D; k++) vsum_i[k] += v[j][k];
+        if (add_j) {
+          contacts[j] += 1.0;
+          for (int k = 0; k < D; k++) vsum[j][k] += v[i][k];
+        }
+      }
+      if constexpr (WHAT & FILM) {
+        const double A = Foam::contact_area<D>(r, Ri, Rj);
+        const double exchange = Foam::film_exchange(A, Ri, Rj);
+        film_i += exchange;
+        if (add_j) film[j] -= exchange;
+        if constexpr (WHAT & AREA) {
+          area_i += A;
+          if (add_j) area[j] += A;
+        }
+      }
+      if constexpr (WHAT & ENERGY) {
+        const double half_spring = 0.5 * Foam::spring_energy(sigma * rin, overlap, Rsum);
+        const double durian = Foam::durian_energy(sigma, overlap);
+        espring_i += half_spring;
+        edurian_i += durian;
+        if (add_j) {
+          espring[j] += half_spring;
+          edurian[j] += durian;
+        }
+      }
+    }
+
+    if constexpr (WHAT & FORCE)
+      for (int k = 0; k < D; k++) f[i][k] += fi[k];
+    if constexpr (WHAT & DRAG) {
+      contacts[i] += contacts_i;
+      for (int k = 0; k < D; k++) vsum[i][k] += vsum_i[k];
+    }
+    if constexpr (WHAT & FILM) film[i] += film_i;
+    if constexpr (WHAT & AREA) area[i] += area_i;
+    if constexpr (WHAT & ENERGY) {
+      espring[i] += espring_i;
+      edurian[i] += edurian_i;
+    }
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairDurianFoam::grow_sums(unsigned what)
+{
+  if (atom->nmax > nmax) {
+    nmax = atom->nmax;
+    memory->destroy(contacts);
+    memory->destroy(vsum);
+    memory->destroy(area);
+    memory->destroy(film);
+    memory->destroy(espring);
+    memory->destroy(edurian);
+  }
+  if ((what & DRAG) && !contacts) {
+    memory->create(contacts, nmax, "durian/foam:contacts");
+    memory->create(vsum, nmax, 3, "durian/foam:vsum");
+  }
+  if ((what & FILM) && !film) memory->create(film, nmax, "durian/foam:film");
+  if ((what & AREA) && !area) memory->create(area, nmax, "durian/foam:area");
+  if ((what & ENERGY) && !espring) {
+    memory->create(espring, nmax, "durian/foam:espring");
+    memory->create(edurian, nmax, "durian/foam:edurian");
+  }
+}
+
+void PairDurianFoam::clear_sums(unsigned what, int n)
+{
+  const size_t bytes = sizeof(double) * n;
+  if (bytes == 0) return;
+  if (what & DRAG) {
+    memset(contacts, 0, bytes);
+    memset(&vsum[0][0], 0, 3 * bytes);
+  }
+  if (what & FILM) memset(film, 0, bytes);
+  if (what & AREA) memset(area, 0, bytes);
+  if (what & ENERGY) {
+    memset(espring, 0, bytes);
+    memset(edurian, 0, bytes);
+  }
+}
+
+int PairDurianFoam::pack_reverse_comm(int n, int first, double *buf)
+{
+  int m = 0;
+  for (int i = first; i < first + n; i++) {
+    if (gathered & DRAG) {
+      buf[m++] = contacts[i];
+      for (int k = 0; k < 3; k++) buf[m++] = vsum[i][k];
+    }
+    if (gathered & FILM) buf[m++] = film[i];
+    if (gathered & AREA) buf[m++] = area[i];
+    if (gathered & ENERGY) {
+      buf[m++] = espring[i];
+      buf[m++] = edurian[i];
+    }
+  }
+  return m;
+}
+
+void PairDurianFoam::unpack_reverse_comm(int n, int *sendlist, double *buf)
+{
+  int m = 0;
+  for (int ii = 0; ii < n; ii++) {
+    const int i = sendlist[ii];
+    if (gathered & DRAG) {
+      contacts[i] += buf[m++];
+      for (int k = 0; k < 3; k++) vsum[i][k] += buf[m++];
+    }
+    if (gathered & FILM) film[i] += buf[m++];
+    if (gathered & AREA) area[i] += buf[m++];
+    if (gathered & ENERGY) {
+      espring[i] += buf[m++];
+      edurian[i] += buf[m++];
+    }
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairDurianFoam::allocate()
+{
+  allocated = 1;
+  const int n = atom->ntypes + 1;
+  memory->create(setflag, n, n, "pair:setflag");
+  for (int i = 1; i < n; i++)
+    for (int j = i; j < n; j++) setflag[i][j] = 0;
+  memory->create(cutsq, n, n, "pair:cutsq");
+  memory->create(sigma0, n, n, "pair:sigma0");
+}
+
+void PairDurianFoam::settings(int narg, char **arg)
+{
+  if (narg < 1)
+    error->all(FLERR, "Pair style durian/foam needs the drag coefficient mu0 as first argument");
+  mu0 = utils::numeric(FLERR, arg[0], false, lmp);
+  if (!(mu0 > 0.0) || !std::isfinite(mu0))
+    error->all(FLERR, "Pair style durian/foam: mu0 must be a number > 0, not {}", arg[0]);
+
+  neighbor_drag = false;
+  headroom = 1.2;
+
+  int iarg = 1;
+  while (iarg < narg) {
+    if (iarg + 2 > narg)
+      error->all(FLERR, "Pair style durian/foam: keyword {} needs a value (keywords are drag, rin, headroom)",
+                 arg[iarg]);
+    const std::string keyword = arg[iarg], value = arg[iarg + 1];
+    if (keyword == "drag") {
+      if (value == "static")
+        neighbor_drag = false;
+      else if (value == "neighbor")
+        neighbor_drag = true;
+      else
+        error->all(FLERR, "Pair style durian/foam: drag must be static or neighbor, not {}", value);
+    } else if (keyword == "rin") {
+      rin = utils::numeric(FLERR, value, false, lmp);
+      if (!(rin > 0.0) || !std::isfinite(rin))
+        error->all(FLERR, "Pair style durian/foam: rin must be a number > 0, not {}", value);
+      rin_fixed = true;
+    } else if (keyword == "headroom") {
+      headroom = utils::numeric(FLERR, value, false, lmp);
+      if (!(headroom >= 1.0) || !std::isfinite(headroom))
+        error->all(FLERR, "Pair style durian/foam: headroom must be a number >= 1, not {}", value);
+    } else
+      error->all(FLERR, "Pair style durian/foam: unknown keyword {} (allowed are drag, rin, headroom)",
+                 keyword);
+    iarg += 2;
+  }
+}
+
+void PairDurianFoam::coeff(int narg, char **arg)
+{
+  if (narg != 3)
+    error->all(FLERR, "Pair style durian/foam: pair_coeff needs two types and sigma0, got {} arguments",
+               narg);
+  if (!allocated) allocate();
+
+  int ilo, ihi, jlo, jhi;
+  utils::bounds(FLERR, arg[0], 1, atom->ntypes, ilo, ihi, error);
+  utils::bounds(FLERR, arg[1], 1, atom->ntypes, jlo, jhi, error);
+  const double value = utils::numeric(FLERR, arg[2], false, lmp);
+  if (!(value >= 0.0) || !std::isfinite(value))
+    error->all(FLERR, "Pair style durian/foam: sigma0 in pair_coeff must be a number >= 0, not {}",
+               arg[2]);
+
+  int count = 0;
+  for (int i = ilo; i <= ihi; i++)
+    for (int j = MAX(jlo, i); j <= jhi; j++) {
+      sigma0[i][j] = value;
+      setflag[i][j] = 1;
+      count++;
+    }
+  if (count == 0)
+    error->all(FLERR, "Pair style durian/foam: pair_coeff {} {} names no pair of types", arg[0],
+               arg[1]);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairDurianFoam::init_style()
+{
+  if (!atom->radius_flag)
+    error->all(FLERR, "Pair style durian/foam needs bubbles with radii: use atom_style sphere 1");
+  if (!atom->tag_enable)
+    error->all(FLERR, "Pair style durian/foam needs atom IDs: use atom_modify id yes");
+  if (force->ftm2v != 1.0 || force->mvv2e != 1.0)
+    error->all(FLERR, "Pair style durian/foam needs consistent units: use units lj, si, cgs, micro or nano");
+
+  // the drag asks for the neighbors' velocities; this is read by Comm::init() further on
+
+  if (neighbor_drag) comm->ghost_velocity = 1;
+
+  // <R_in> and <A_in> are those of the first run; commands that initialise before it
+  // see preliminary ones.  The largest radius sets all cutoffs, with head-room to grow.
+
+  const double *const radius = atom->radius;
+  double mine[3] = {0.0, 0.0, 0.0}, all[3], largest = 0.0;
+  for (int i = 0; i < atom->nlocal; i++)
+    if (radius[i] > 0.0) {
+      mine[0] += 1.0;
+      mine[1] += radius[i];
+      mine[2] += domain->dimension == 2 ? Foam::surface<2>(radius[i]) : Foam::surface<3>(radius[i]);
+      largest = MAX(largest, radius[i]);
+    }
+  MPI_Allreduce(mine, all, 3, MPI_DOUBLE, MPI_SUM, world);
+  if (!rin_fixed) rin = all[0] > 0.0 ? all[1] / all[0] : 0.0;
+  if (!ain_fixed) ain = all[0] > 0.0 ? all[2] / all[0] : 0.0;
+  MPI_Allreduce(&largest, &cutoff_radius, 1, MPI_DOUBLE, MPI_MAX, world);
+  cutoff_radius *= headroom;
+
+  neighbor->add_request(this, NeighConst::REQ_SIZE);
+}
+
+double PairDurianFoam::init_one(int i, int j)
+{
+  if (setflag[i][j] == 0) sigma0[i][j] = mix_energy(sigma0[i][i], sigma0[j][j], 1.0, 1.0);
+  sigma0[j][i] = sigma0[i][j];
+  return 2.0 * cutoff_radius;
+}
+
+void PairDurianFoam::setup()
+{
+  if (!(rin > 0.0))
+    error->all(FLERR, "Pair style durian/foam: the mean radius <R_in> is {}, so there is no bubble "
+               "with a radius > 0: create bubbles, set their diameters or give keyword rin", rin);
+  rin_fixed = ain_fixed = true;
+}
+
+/* ----------------------------------------------------------------------
+   Bubbles grow by an order of magnitude in a run, but LAMMPS sets cutoffs, the reach of
+   ghosts and bins at its start.  To be called just before an exchange, whatever has lists
+   asks for them again.  Other fixes are left alone: a second init() may restart them.
+------------------------------------------------------------------------- */
+
+void PairDurianFoam::refresh()
+{
+  force->pair->init();
+  for (auto &ifix : modify->get_fix_list())
+    if (neighbor->find_list(ifix)) ifix->init();
+  for (auto &icompute : modify->get_compute_list())
+    if (neighbor->find_list(icompute)) icompute->init();
+  neighbor->init();
+  comm->setup();
+  if (neighbor->style) neighbor->setup_bins();
+}
+
+bool PairDurianFoam::outgrown() const
+{
+  double mine = 0.0, all;
+  for (int i = 0; i < atom->nlocal; i++) mine = MAX(mine, atom->radius[i]);
+  MPI_Allreduce(&mine, &all, 1, MPI_DOUBLE, MPI_MAX, world);
+  return all > cutoff_radius;
+}
+
+double PairDurianFoam::stiffest() const
+{
+  double most = 0.0;
+  for (int i = 1; i <= atom->ntypes; i++)
+    for (int j = i; j <= atom->ntypes; j++) most = MAX(most, sigma0[i][j]);
+  return most;
+}
+
+/* ---------------------------------------------------------------------- */
+
+double PairDurianFoam::single(int i, int j, int itype, int jtype, double rsq, double, double,
+                              double &fforce)
+{
+  fforce = 0.0;
+  const double Ri = atom->radius[i], Rj = atom->radius[j], Rsum = Ri + Rj;
+  if (!(rsq < Rsum * Rsum) || !(Ri > 0.0) || !(Rj > 0.0)) return 0.0;
+  const double r = std::sqrt(rsq), stiffness = sigma0[itype][jtype] * rin;
+  if (r > 0.0) fforce = Foam::spring_force(stiffness, Rsum - r, Rsum) / r;
+  return Foam::spring_energy(stiffness, Rsum - r, Rsum);
+}
+
+void *PairDurianFoam::extract(const char *name, int &dim)
+{
+  dim = 2;
+  if (strcmp(name, "sigma0") == 0) return sigma0;
+  dim = 0;
+  if (strcmp(name, "mu0") == 0) return &mu0;
+  if (strcmp(name, "rin") == 0) return &rin;
+  return nullptr;
+}
+
+/* ---------------------------------------------------------------------- */
+
+void PairDurianFoam::write_restart(FILE *fp)
+{
+  write_restart_settings(fp);
+  for (int i = 1; i <= atom->ntypes; i++)
+    for (int j = i; j <= atom->ntypes; j++) {
+      fwrite(&setflag[i][j], sizeof(int), 1, fp);
+      if (setflag[i][j]) fwrite(&sigma0[i][j], sizeof(double), 1, fp);
+    }
+}
+
+void PairDurianFoam::read_restart(FILE *fp)
+{
+  read_restart_settings(fp);
+  if (!allocated) allocate();
+  const int me = comm->me;
+  for (int i = 1; i <= atom->ntypes; i++)
+    for (int j = i; j <= atom->ntypes; j++) {
+      if (me == 0) utils::sfread(FLERR, &setflag[i][j], sizeof(int), 1, fp, nullptr, error);
+      MPI_Bcast(&setflag[i][j], 1, MPI_INT, 0, world);
+      if (setflag[i][j]) {
+        if (me == 0) utils::sfread(FLERR, &sigma0[i][j], sizeof(double), 1, fp, nullptr, error);
+        MPI_Bcast(&sigma0[i][j], 1, MPI_DOUBLE, 0, world);
+      }
+    }
+}
+
+void PairDurianFoam::write_restart_settings(FILE *fp)
+{
+  const double values[7] = {mu0, rin, double(rin_fixed), ain, double(ain_fixed),
+                            double(neighbor_drag), headroom};
+  fwrite(values, sizeof(double), 7, fp);
+}
+
+void PairDurianFoam::read_restart_settings(FILE *fp)
+{
+  double values[7];
+  if (comm->me == 0) utils::sfread(FLERR, values, sizeof(double), 7, fp, nullptr, error);
+  MPI_Bcast(values, 7, MPI_DOUBLE, 0, world);
+  mu0 = values[0];
+  rin = values[1];
+  rin_fixed = values[2] != 0.0;
+  ain = values[3];
+  ain_fixed = values[4] != 0.0;
+  neighbor_drag = values[5] != 0.0;
+  headroom = values[6];
+}
+
+void PairDurianFoam::write_data(FILE *fp)
+{
+  for (int i = 1; i <= atom->ntypes; i++) fprintf(fp, "%d %.17g\n", i, sigma0[i][i]);
+}
+
+void PairDurianFoam::write_data_all(FILE *fp)
+{
+  for (int i = 1; i <= atom->ntypes; i++)
+    for (int j = i; j <= atom->ntypes; j++) fprintf(fp, "%d %d %.17g\n", i, j, sigma0[i][j]);
+}
+
+double PairDurianFoam::memory_usage()
+{
+  double bytes = Pair::memory_usage();
+  const double each = sizeof(double) * static_cast<double>(nmax);
+  if (contacts) bytes += 4.0 * each;
+  if (film) bytes += each;
+  if (area) bytes += each;
+  if (espring) bytes += 2.0 * each;
+  return bytes;
+}
