@@ -19,41 +19,55 @@ FixFoamABM::FixFoamABM(LAMMPS *lmp, int narg, char **arg) : FixFoamIntegrate(lmp
 
 FixFoamIntegrate::Trial FixFoamABM::attempt(double step)
 {
+  return dim == 2 ? attempt_in<2>(step) : attempt_in<3>(step);
+}
+
+template <int D> FixFoamIntegrate::Trial FixFoamABM::attempt_in(double step)
+{
   double *const *const x = atom->x;
-  const double *const *const v = atom->v;    // f_n
+  double *const *const v = atom->v;    // f_n
   double *const radius = atom->radius;
   double *const q = columns[Q];
   const double *const qdot = columns[QDOT];
+  const double *const v_before[3] = {columns[VX_BEFORE], columns[VY_BEFORE], columns[VZ_BEFORE]};
+  const double *const qdot_before = columns[QDOT_BEFORE];
   const int nlocal = atom->nlocal;
 
   const Foam::Predictor p = Foam::predictor(control.scheme, step, h_before);
+  Trial trial;
   for (int i = 0; i < nlocal; i++) {
-    for (int k = 0; k < dim; k++)
-      x[i][k] = Foam::predict(x_start[i][k], v[i][k], columns[VX_BEFORE + k][i], p);
-    if (!gas) continue;
-    q[i] = Foam::predict(q_start[i], qdot[i], columns[QDOT_BEFORE][i], p);
-    radius[i] = radius_of(q[i]);
+    double square = 0.0, growth = 0.0;
+    for (int k = 0; k < D; k++) {
+      x[i][k] = Foam::predict(x_start[i][k], v[i][k], v_before[k][i], p);
+      square += (x[i][k] - x_listed[i][k]) * (x[i][k] - x_listed[i][k]);
+    }
+    if (gas) {
+      q[i] = Foam::predict(q_start[i], qdot[i], qdot_before[i], p);
+      radius[i] = radius_of<D>(q[i]);
+      growth = MAX(0.0, radius[i] - radius_listed[i]);
+    }
+    trial.moved = MAX(trial.moved, std::sqrt(square) + growth);
   }
 
   evaluate();
 
-  Trial trial;
+  const Velocities velocity = velocities();
+  auto corrected_by = [&](double error) {
+    trial.error_max = MAX(trial.error_max, error);
+    trial.error_squares += error * error;
+  };
   for (int i = 0; i < nlocal; i++) {
-    trial.moved = std::fmax(trial.moved, moved_since_listed(i));
-    for (int k = 0; k < dim; k++) {
+    for (int k = 0; k < D; k++) {
       const double corrected = Foam::correct(x_start[i][k], v[i][k], velocity(i, k), step);
-      const double error = std::fabs(corrected - x[i][k]);
-      trial.error_max = std::fmax(trial.error_max, error);
-      trial.error_squares += error * error;
+      corrected_by(std::fabs(corrected - x[i][k]));
       x[i][k] = corrected;
     }
-    if (!gas) continue;
-    q[i] = Foam::correct(q_start[i], qdot[i], rate[i], step);
-    const double predicted = radius[i];
-    radius[i] = radius_of(q[i]);
-    const double error = std::fabs(radius[i] - predicted);
-    trial.error_max = std::fmax(trial.error_max, error);
-    trial.error_squares += error * error;
+    if (gas) {
+      const double predicted = radius[i];
+      q[i] = Foam::correct(q_start[i], qdot[i], rate[i], step);
+      radius[i] = radius_of<D>(q[i]);
+      corrected_by(std::fabs(radius[i] - predicted));
+    }
   }
   return trial;
 }
@@ -61,13 +75,17 @@ FixFoamIntegrate::Trial FixFoamABM::attempt(double step)
 void FixFoamABM::keep_history()
 {
   double *const *const v = atom->v;
+  double *const v_before[3] = {columns[VX_BEFORE], columns[VY_BEFORE], columns[VZ_BEFORE]};
+  double *const qdot = columns[QDOT], *const qdot_before = columns[QDOT_BEFORE];
+  const bool rates_known = !evaluates_again();
+  const Velocities velocity = velocities();
   for (int i = 0; i < atom->nlocal; i++) {
-    for (int k = 0; k < dim; k++) columns[VX_BEFORE + k][i] = v[i][k];
-    columns[QDOT_BEFORE][i] = columns[QDOT][i];
-    if (!evaluates_again()) {
-      for (int k = 0; k < dim; k++) v[i][k] = velocity(i, k);
-      columns[QDOT][i] = rate[i];
+    for (int k = 0; k < dim; k++) {
+      v_before[k][i] = v[i][k];
+      if (rates_known) v[i][k] = velocity(i, k);
     }
+    qdot_before[i] = qdot[i];
+    if (rates_known) qdot[i] = rate[i];
   }
 }
 

@@ -30,6 +30,9 @@ class FixFoamABM : public FixFoamIntegrate {
   Trial attempt(double) override;
   void keep_history() override;
   bool evaluates_again() const override;
+
+ private:
+  template <int D> Trial attempt_in(double);
 };
 
 }    // namespace LAMMPS_NS

@@ -39,7 +39,7 @@ FixFoamIntegrate::FixFoamIntegrate(LAMMPS *lmp, int narg, char **arg) :
     variable(Variable::VOLUME), norm(Norm::MAX), dt_start(0.0), dt_limit(0.0),
     drift_removed(false), time(0.0), h(0.0), h_before(0.0), accepted(0.0), rejected(0.0),
     evaluations(0.0), error_last(0.0), columns(NCOLUMNS), lags(NLAGS), x_start(nullptr),
-    q_start(nullptr), rate(nullptr), nscratch(0), nlisted(0), x_listed(nullptr), radius_listed(nullptr),
+    q_start(nullptr), rate(nullptr), x_listed(nullptr), radius_listed(nullptr), nscratch(0), nlisted(0),
     list_is_new(false), stopping(false), have_lags(false)
 {
   if (narg < 4) error->all(FLERR, "Fix {} needs the tolerance as first argument", style);
@@ -201,7 +201,6 @@ void FixFoamIntegrate::setup_pre_force(int)
 void FixFoamIntegrate::setup(int)
 {
   stopping = false;
-  const double *const *const v = atom->v;
 
   if (evaluates_again() || h_before == 0.0) {
     evaluations++;
@@ -211,11 +210,12 @@ void FixFoamIntegrate::setup(int)
     // a command has changed the foam, the rates are no longer those at the end of the last run.
 
     FoamTotals mine;
+    const Velocities velocity = velocities();
     const bool lagged = pair->neighbor_drag && have_lags;
     for (int i = 0; i < atom->nlocal; i++) {
       for (int k = 0; k < dim; k++) {
         const double now = velocity(i, k);
-        const double then = lagged ? lags[LASTX + k][i] : v[i][k];
+        const double then = lagged ? lags[LASTX + k][i] : atom->v[i][k];
         mine.max[0] = MAX(mine.max[0], std::fabs(drift_removed ? 0.0 : now - then));
         mine.max[1] = MAX(mine.max[1], std::fabs(now));
       }
@@ -243,10 +243,11 @@ void FixFoamIntegrate::take_population()
 {
   if (!gas) return;
   FoamTotals mine;
+  const double *const q = columns[Q];
   for (int i = 0; i < atom->nlocal; i++) {
     mine.sum[N] += 1.0;
     mine.sum[RADII] += atom->radius[i];
-    mine.sum[GAS] += content(i);
+    mine.sum[GAS] += dim == 2 ? content<2>(q[i]) : content<3>(q[i]);
     mine.max[RADIUS] = MAX(mine.max[RADIUS], atom->radius[i]);
   }
   const FoamTotals all = reduce(mine);
@@ -270,7 +271,8 @@ void FixFoamIntegrate::initial_integrate(int)
                  "tolerance {}: look for bad forces, raise the tolerance or lower dt0",
                  style, step, update->ntimestep, time, error_last, control.tolerance);
 
-    judge(attempt(step));
+    const Trial trial = attempt(step);
+    dim == 2 ? judge<2>(trial) : judge<3>(trial);
 
     // forces beyond the neighbor list are not trusted: list the start anew, or step less far
 
@@ -328,7 +330,7 @@ void FixFoamIntegrate::return_to_start()
    its error, whether the list still holds, and the bubbles that it would leave
 ------------------------------------------------------------------------- */
 
-void FixFoamIntegrate::judge(const Trial &trial)
+template <int D> void FixFoamIntegrate::judge(const Trial &trial)
 {
   const double *const *const x = atom->x;
   const double *const radius = atom->radius;
@@ -343,25 +345,24 @@ void FixFoamIntegrate::judge(const Trial &trial)
     if (!(q_start[i] > 0.0)) continue;    // dead already
     const double R = radius[i];
 
-    // as far from the listed state as this step goes, and the next if it repeats this one
+    // as far from the listed state as the next step goes if it repeats this one
 
     double square = 0.0;
-    for (int k = 0; k < dim; k++) {
+    for (int k = 0; k < D; k++) {
       const double ahead = 2.0 * x[i][k] - x_start[i][k] - x_listed[i][k];
       square += ahead * ahead;
     }
-    const double growth = gas ? 2.0 * R - radius_of(q_start[i]) - radius_listed[i] : 0.0;
-    const double ahead = std::sqrt(square) + MAX(0.0, growth);
-    mine.max[AHEAD] = MAX(mine.max[AHEAD], MAX(ahead, moved_since_listed(i)));
+    const double growth = gas ? 2.0 * R - radius_of<D>(q_start[i]) - radius_listed[i] : 0.0;
+    mine.max[AHEAD] = MAX(mine.max[AHEAD], std::sqrt(square) + MAX(0.0, growth));
     if (!std::isfinite(square) || !std::isfinite(q[i])) mine.sum[BAD] += 1.0;
 
     if (R < smallest || !(q[i] > 0.0)) {
       mine.sum[REMOVED] += 1.0;
-      mine.sum[GAS_REMOVED] += content(i);
+      mine.sum[GAS_REMOVED] += content<D>(q[i]);
     } else {
       mine.sum[N] += 1.0;
       mine.sum[RADII] += R;
-      mine.sum[GAS] += content(i);
+      mine.sum[GAS] += content<D>(q[i]);
       mine.max[RADIUS] = MAX(mine.max[RADIUS], R);
     }
   }
@@ -374,6 +375,10 @@ void FixFoamIntegrate::judge(const Trial &trial)
     error_last = bubbles > 0.0 ? std::sqrt(totals.sum[SQUARES] / (bubbles * components)) : 0.0;
   error_last /= pair->rin;
   if (totals.sum[BAD] > 0.0) error_last = INFINITY;
+
+  // the candidate itself is within its error, in D components and the radius, of a listed state
+
+  totals.max[AHEAD] = MAX(totals.max[AHEAD], totals.max[MOVED] + (D + 1) * totals.max[ERROR]);
 }
 
 void FixFoamIntegrate::accept(double step)
@@ -478,28 +483,17 @@ void FixFoamIntegrate::exchange_rates()
   }
 }
 
-double FixFoamIntegrate::velocity(int i, int k) const
+FixFoamIntegrate::Velocities FixFoamIntegrate::velocities() const
 {
-  if (!(atom->radius[i] > 0.0)) return 0.0;
-  const double u =
-      pair->neighbor_drag ? Foam::mean_of_neighbors(pair->vsum[i][k], pair->contacts[i]) : 0.0;
-  return Foam::drag_velocity(atom->f[i][k], pair->mu0, u);
-}
-
-double FixFoamIntegrate::radius_of(double q) const
-{
-  if (variable == Variable::RADIUS) return q < 0.0 ? 0.0 : q;
-  return dim == 2 ? Foam::radius_of_power<2>(q) : Foam::radius_of_power<3>(q);
+  return {atom->f, pair->neighbor_drag ? pair->vsum : nullptr, pair->contacts, atom->radius,
+          pair->mu0};
 }
 
 // gas content of a bubble; of a candidate it may be negative, and then counts as such
 
-double FixFoamIntegrate::content(int i) const
+template <int D> double FixFoamIntegrate::content(double q) const
 {
-  double q = columns[Q][i];
-  if (variable == Variable::RADIUS)
-    q = dim == 2 ? Foam::power_of_radius<2>(q) : Foam::power_of_radius<3>(q);
-  return (dim == 2 ? Foam::CONTENT<2> : Foam::CONTENT<3>) *q;
+  return Foam::CONTENT<D> * (variable == Variable::VOLUME ? q : Foam::power_of_radius<D>(q));
 }
 
 /* ----------------------------------------------------------------------
@@ -517,7 +511,9 @@ void FixFoamIntegrate::final_integrate()
 void FixFoamIntegrate::take_rates()
 {
   double *const *const v = atom->v;
+  double *const qdot = columns[QDOT];
   const int nlocal = atom->nlocal;
+  const Velocities velocity = velocities();
   const bool lagged = pair->neighbor_drag;
 
   FoamTotals mine;
@@ -528,7 +524,7 @@ void FixFoamIntegrate::take_rates()
       mine.sum[k] += v[i][k];
     }
     if (atom->radius[i] > 0.0) mine.sum[3] += 1.0;
-    columns[QDOT][i] = rate[i];
+    qdot[i] = rate[i];
   }
   have_lags = lagged;
 
@@ -566,16 +562,6 @@ void FixFoamIntegrate::post_neighbor()
   }
   if (domain->box_change) box_corners(corners_listed);
   list_is_new = true;
-}
-
-double FixFoamIntegrate::moved_since_listed(int i) const
-{
-  double square = 0.0;
-  for (int k = 0; k < dim; k++) {
-    const double d = atom->x[i][k] - x_listed[i][k];
-    square += d * d;
-  }
-  return std::sqrt(square) + MAX(0.0, atom->radius[i] - radius_listed[i]);
 }
 
 // half of the skin, less what a moving box takes away (the two corners that moved most)

@@ -107,15 +107,32 @@ class FixFoamIntegrate : public Fix {
   double *q_start;
   double *rate;    // qdot as evaluated last
 
-  void evaluate();                          // forces, drag and qdot of the state in x, radius
-  double velocity(int i, int k) const;      // of the state evaluated last
-  double radius_of(double q) const;
-  double moved_since_listed(int i) const;
+  double **x_listed;         // where bubbles were when the neighbor list was built,
+  double *radius_listed;     // and how large
+
+  void evaluate();    // forces, drag and qdot of the state in x, radius
+
+  struct Velocities {    // of the state evaluated last
+    const double *const *f, *const *vsum;    // vsum is null with static drag
+    const double *contacts, *radius;
+    double mu0;
+    double operator()(int i, int k) const
+    {
+      if (!(radius[i] > 0.0)) return 0.0;
+      return Foam::drag_velocity(
+          f[i][k], mu0, vsum ? Foam::mean_of_neighbors(vsum[i][k], contacts[i]) : 0.0);
+    }
+  };
+  Velocities velocities() const;
+
+  template <int D> double radius_of(double q) const
+  {
+    if (variable == Variable::VOLUME) return Foam::radius_of_power<D>(q);
+    return q < 0.0 ? 0.0 : q;
+  }
 
  private:
   int nscratch, nlisted;    // allocated lengths
-  double **x_listed;    // where bubbles were when the neighbor list was built, and how large
-  double *radius_listed;
   double corners_listed[8][3];
   bool list_is_new;    // built at the present state
   bool stopping;       // the run has reached its end
@@ -125,7 +142,7 @@ class FixFoamIntegrate : public Fix {
   enum { N, RADII, GAS, REMOVED, GAS_REMOVED, SQUARES, BAD };
   enum { ERROR, MOVED, AHEAD, RADIUS };
 
-  void judge(const Trial &);
+  template <int D> void judge(const Trial &);
   void accept(double step);
   void redistribute();
   void keep_start();
@@ -142,7 +159,8 @@ class FixFoamIntegrate : public Fix {
   double natural_time() const;
   double list_margin() const;
   void box_corners(double (*)[3]) const;
-  double content(int i) const;
+  double radius_of(double q) const { return dim == 2 ? radius_of<2>(q) : radius_of<3>(q); }
+  template <int D> double content(double q) const;
 };
 
 }    // namespace LAMMPS_NS
