@@ -113,24 +113,22 @@ unsigned FixFoamCoarsen::wanted() const
                                 + c w_i (1/rho - 1/R_i), see foam_physics.h
 ------------------------------------------------------------------------- */
 
-double FixFoamCoarsen::free_area(int i) const
+template <int D> double FixFoamCoarsen::weight(int i) const
 {
   const double R = atom->radius[i];
-  const double A = domain->dimension == 2 ? Foam::surface<2>(R) : Foam::surface<3>(R);
-  return Foam::free_area(A, pair->area[i]);
+  return Foam::liquid_weight(law, Foam::free_area(Foam::surface<D>(R), pair->area[i]), R);
 }
 
-FixFoamCoarsen::Liquid FixFoamCoarsen::liquid() const
+template <int D> FixFoamCoarsen::Liquid FixFoamCoarsen::liquid_in() const
 {
   const double *const radius = atom->radius;
-  const bool flat = domain->dimension == 2;
   FoamTotals mine;
   for (int i = 0; i < atom->nlocal; i++) {
     const double R = radius[i];
     if (!(R > 0.0)) continue;
-    const double w = Foam::liquid_weight(law, free_area(i), R);
+    const double w = weight<D>(i);
     mine.sum[0] += 1.0;
-    mine.sum[1] += flat ? Foam::surface<2>(R) : Foam::surface<3>(R);
+    mine.sum[1] += Foam::surface<D>(R);
     mine.sum[2] += w;
     mine.sum[3] += w / R;
   }
@@ -141,30 +139,50 @@ FixFoamCoarsen::Liquid FixFoamCoarsen::liquid() const
           Foam::inverse_critical_radius(all.sum[2], all.sum[3])};
 }
 
-FixFoamCoarsen::Split FixFoamCoarsen::exchange(int i, const Liquid &l) const
+template <int D> FixFoamCoarsen::Split FixFoamCoarsen::exchange_in(int i, const Liquid &l) const
 {
   const double R = atom->radius[i];
   if (!(R > 0.0)) return {0.0, 0.0};
   Split split{K * pair->film[i], 0.0};
   if (l.coefficient > 0.0)
-    split.liquid = Foam::liquid_exchange(
-        l.coefficient, Foam::liquid_weight(law, free_area(i), R), l.inverse_rho, R);
+    split.liquid = Foam::liquid_exchange(l.coefficient, weight<D>(i), l.inverse_rho, R);
   return split;
 }
 
-void FixFoamCoarsen::rates(double *Vdot)
+template <int D> void FixFoamCoarsen::rates_in(double *qdot, bool of_radius)
 {
   const int nlocal = atom->nlocal;
-  if (K == 0.0) {
-    for (int i = 0; i < nlocal; i++) Vdot[i] = 0.0;
-    return;
-  }
-  const Liquid l = kappa > 0.0 ? liquid() : Liquid();
+  const double *const radius = atom->radius;
+  const Liquid l = kappa > 0.0 ? liquid_in<D>() : Liquid();
   rho = l.inverse_rho > 0.0 ? 1.0 / l.inverse_rho : 0.0;
   for (int i = 0; i < nlocal; i++) {
-    const Split split = exchange(i, l);
-    Vdot[i] = split.film + split.liquid;
+    const Split split = exchange_in<D>(i, l);
+    const double Vdot = split.film + split.liquid;
+    qdot[i] = Foam::power_rate<D>(Vdot);
+    if (of_radius) qdot[i] = radius[i] > 0.0 ? Foam::radius_rate<D>(Vdot, radius[i]) : 0.0;
   }
+}
+
+// the same for either dimension
+
+FixFoamCoarsen::Liquid FixFoamCoarsen::liquid() const
+{
+  return domain->dimension == 2 ? liquid_in<2>() : liquid_in<3>();
+}
+
+FixFoamCoarsen::Split FixFoamCoarsen::exchange(int i, const Liquid &l) const
+{
+  return domain->dimension == 2 ? exchange_in<2>(i, l) : exchange_in<3>(i, l);
+}
+
+void FixFoamCoarsen::rates(double *qdot, bool of_radius)
+{
+  if (K == 0.0)
+    for (int i = 0; i < atom->nlocal; i++) qdot[i] = 0.0;
+  else if (domain->dimension == 2)
+    rates_in<2>(qdot, of_radius);
+  else
+    rates_in<3>(qdot, of_radius);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -56,10 +56,9 @@ class FixFoamCoarsen : public Fix {
 
   // all of these use the sums over contacts that the pair style gathered last
 
-  double free_area(int i) const;
   Liquid liquid() const;    // over all ranks
   Split exchange(int i, const Liquid &) const;
-  void rates(double *Vdot);    // rate of gas content of each owned bubble
+  void rates(double *qdot, bool of_radius);    // of q = R^d, or of R, for each owned bubble
 
   double smallest_radius() const;   // below it a bubble is removed
   void accepted(double h, double removed, double gas_removed);
@@ -81,6 +80,10 @@ class FixFoamCoarsen : public Fix {
   bool dead;     // there are removed bubbles, on any rank, that are not yet taken out
 
   void take_out_dead();
+  template <int D> double weight(int i) const;
+  template <int D> Liquid liquid_in() const;
+  template <int D> Split exchange_in(int i, const Liquid &) const;
+  template <int D> void rates_in(double *qdot, bool of_radius);
 };
 
 }    // namespace LAMMPS_NS

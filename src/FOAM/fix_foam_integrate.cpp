@@ -39,7 +39,7 @@ FixFoamIntegrate::FixFoamIntegrate(LAMMPS *lmp, int narg, char **arg) :
     variable(Variable::VOLUME), norm(Norm::MAX), dt_start(0.0), dt_limit(0.0),
     drift_removed(false), time(0.0), h(0.0), h_before(0.0), accepted(0.0), rejected(0.0),
     evaluations(0.0), error_last(0.0), columns(NCOLUMNS), lags(NLAGS), x_start(nullptr),
-    q_start(nullptr), rate(nullptr), x_listed(nullptr), radius_listed(nullptr), nscratch(0), nlisted(0),
+    q_start(nullptr), radius_start(nullptr), rate(nullptr), x_listed(nullptr), radius_listed(nullptr), nscratch(0), nlisted(0),
     list_is_new(false), stopping(false), have_lags(false)
 {
   if (narg < 4) error->all(FLERR, "Fix {} needs the tolerance as first argument", style);
@@ -105,6 +105,7 @@ FixFoamIntegrate::~FixFoamIntegrate()
   atom->delete_callback(id, Atom::RESTART);
   memory->destroy(x_start);
   memory->destroy(q_start);
+  memory->destroy(radius_start);
   memory->destroy(rate);
   memory->destroy(x_listed);
   memory->destroy(radius_listed);
@@ -168,7 +169,7 @@ void FixFoamIntegrate::check_bubbles()
   double *const q = columns[Q];
   for (int i = 0; i < atom->nlocal; i++) {
     const double R = atom->radius[i];
-    if (radius_of(q[i]) == R) continue;
+    if ((dim == 2 ? radius_of<2>(q[i]) : radius_of<3>(q[i])) == R) continue;
     if (variable == Variable::RADIUS)
       q[i] = R;
     else
@@ -308,11 +309,14 @@ void FixFoamIntegrate::keep_start()
     nscratch = atom->nmax;
     memory->grow(x_start, nscratch, 3, "foam:x_start");
     memory->grow(q_start, nscratch, "foam:q_start");
+    memory->grow(radius_start, nscratch, "foam:radius_start");
   }
   const int nlocal = atom->nlocal;
   if (nlocal == 0) return;
   memcpy(&x_start[0][0], &atom->x[0][0], 3 * sizeof(double) * nlocal);
+  if (!gas) return;
   memcpy(q_start, columns[Q], sizeof(double) * nlocal);
+  memcpy(radius_start, atom->radius, sizeof(double) * nlocal);
 }
 
 void FixFoamIntegrate::return_to_start()
@@ -320,9 +324,9 @@ void FixFoamIntegrate::return_to_start()
   const int nlocal = atom->nlocal;
   if (nlocal == 0) return;
   memcpy(&atom->x[0][0], &x_start[0][0], 3 * sizeof(double) * nlocal);
+  if (!gas) return;
   memcpy(columns[Q], q_start, sizeof(double) * nlocal);
-  if (gas)
-    for (int i = 0; i < nlocal; i++) atom->radius[i] = radius_of(q_start[i]);
+  memcpy(atom->radius, radius_start, sizeof(double) * nlocal);
 }
 
 /* ----------------------------------------------------------------------
@@ -342,7 +346,7 @@ template <int D> void FixFoamIntegrate::judge(const Trial &trial)
   mine.max[ERROR] = trial.error_max;
   mine.max[MOVED] = trial.moved;
   for (int i = 0; i < atom->nlocal; i++) {
-    if (!(q_start[i] > 0.0)) continue;    // dead already
+    if (gas && !(radius_start[i] > 0.0)) continue;    // dead already
     const double R = radius[i];
 
     // as far from the listed state as the next step goes if it repeats this one
@@ -352,7 +356,7 @@ template <int D> void FixFoamIntegrate::judge(const Trial &trial)
       const double ahead = 2.0 * x[i][k] - x_start[i][k] - x_listed[i][k];
       square += ahead * ahead;
     }
-    const double growth = gas ? 2.0 * R - radius_of<D>(q_start[i]) - radius_listed[i] : 0.0;
+    const double growth = gas ? 2.0 * R - radius_start[i] - radius_listed[i] : 0.0;
     mine.max[AHEAD] = MAX(mine.max[AHEAD], std::sqrt(square) + MAX(0.0, growth));
     if (!std::isfinite(square) || !std::isfinite(q[i])) mine.sum[BAD] += 1.0;
 
@@ -433,7 +437,7 @@ void FixFoamIntegrate::redistribute()
         for (int k = 0; k < 3; k++) atom->v[i][k] = 0.0;
       } else {
         q[i] *= q_factor;
-        radius[i] = radius_of(q[i]);
+        radius[i] = dim == 2 ? radius_of<2>(q[i]) : radius_of<3>(q[i]);
       }
     }
   }
@@ -472,15 +476,7 @@ void FixFoamIntegrate::exchange_rates()
     for (int i = 0; i < nlocal; i++) rate[i] = 0.0;
     return;
   }
-  gas->rates(rate);
-  const double *const radius = atom->radius;
-  for (int i = 0; i < nlocal; i++) {
-    if (variable == Variable::VOLUME)
-      rate[i] = dim == 2 ? Foam::power_rate<2>(rate[i]) : Foam::power_rate<3>(rate[i]);
-    else if (radius[i] > 0.0)
-      rate[i] = dim == 2 ? Foam::radius_rate<2>(rate[i], radius[i])
-                         : Foam::radius_rate<3>(rate[i], radius[i]);
-  }
+  gas->rates(rate, variable == Variable::RADIUS);
 }
 
 FixFoamIntegrate::Velocities FixFoamIntegrate::velocities() const
@@ -834,5 +830,5 @@ void FixFoamIntegrate::restart(char *buf)
 
 double FixFoamIntegrate::memory_usage()
 {
-  return columns.bytes() + lags.bytes() + sizeof(double) * (4.0 * nscratch + 5.0 * nlisted);
+  return columns.bytes() + lags.bytes() + sizeof(double) * 5.0 * (nscratch + nlisted);
 }

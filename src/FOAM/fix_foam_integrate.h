@@ -103,8 +103,8 @@ class FixFoamIntegrate : public Fix {
 
   // ---- what a scheme uses
 
-  double **x_start;    // y_n
-  double *q_start;
+  double **x_start;    // y_n, and the radii in it
+  double *q_start, *radius_start;
   double *rate;    // qdot as evaluated last
 
   double **x_listed;         // where bubbles were when the neighbor list was built,
@@ -159,7 +159,6 @@ class FixFoamIntegrate : public Fix {
   double natural_time() const;
   double list_margin() const;
   void box_corners(double (*)[3]) const;
-  double radius_of(double q) const { return dim == 2 ? radius_of<2>(q) : radius_of<3>(q); }
   template <int D> double content(double q) const;
 };
 
