@@ -88,20 +88,26 @@ def exponent(series, decades=0.3):
     return np.polyfit(np.log(tau[late]), np.log(size[late]), 1)[0]
 
 
-def slope_guides(ax, x, y, slopes, labels):
-    """Straight lines of given slopes, all from the point (x[0], y), with a label at the end."""
-    for slope, label, dash in zip(slopes, labels, ("-", (0, (4, 2)))):
-        end = y * (x[1] / x[0])**slope
-        ax.plot(x, [y, end], color=GREY, lw=1.2, ls=dash)
-        ax.annotate(label, (x[1], end), xytext=(5, 0), textcoords="offset points",
+def slope_guides(ax, x, y, offset, slopes):
+    """Straight lines beside the end of the curve, from offset * y at a quarter of the last x."""
+    ends = np.array([x[-1] / 4, x[-1]])
+    start = offset * np.interp(ends[0], x, y)
+    lines = []
+    for (label, slope), dash in zip(slopes.items(), ("-", (0, (4, 2)))):
+        line = start * (ends / ends[0])**slope
+        ax.plot(ends, line, color=GREY, lw=1.2, ls=dash)
+        ax.annotate(label, (ends[1], line[1]), xytext=(5, 0), textcoords="offset points",
                     va="center", color=GREY)
+        lines.append(line)
+    return np.array(lines)
 
 
-def plain_ticks(axis, low, high):
-    """Plain numbers instead of powers of ten on a logarithmic axis: as many as its span bears."""
+def limit_axis(axis, low, high):
+    """Limits of a logarithmic axis; plain numbers at its ticks, as many as its span bears."""
     span = high / low
     steps = (1, 1.5, 2, 3, 4, 5, 7) if span < 15 else (1, 2, 5) if span < 300 else (1,)
     ticks = [m * 10.0**e for e in range(-3, 9) for m in steps]
+    axis.set_view_interval(low, high, ignore=True)
     axis.set_major_locator(FixedLocator([t for t in ticks if low <= t <= high]))
     axis.set_minor_locator(NullLocator())
     axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
@@ -111,31 +117,24 @@ def plot_growth(series, path, dim):
     """<R>/<R_in> and N against tau, with the slopes of a bubbly liquid and of a dry foam."""
     use = series["tau"] > 0
     tau, size, number = (series[name][use] for name in ("tau", "R", "N"))
-    guide = np.array([tau[-1] / 6, tau[-1]])
 
     with plt.rc_context(STYLE):
         fig, (left, right) = plt.subplots(1, 2, figsize=(11, 4.6), layout="constrained")
         left.loglog(tau, size, color=BLUE)
         left.set_ylabel(r"mean radius  $\langle R\rangle\,/\,\langle R_\mathrm{in}\rangle$")
-        start = 0.72 * np.interp(guide[0], tau, size)
-        slope_guides(left, guide, start, (1 / 2, 1 / 3), ("1/2", "1/3"))
-        low, high = min(size.min(), start) * 0.93, size.max() * 1.1
-        left.set_ylim(low, high)
-        plain_ticks(left.yaxis, low, high)
+        guides = slope_guides(left, tau, size, 0.7, {"1/2": 1 / 2, "1/3": 1 / 3})
+        limit_axis(left.yaxis, 0.93 * min(guides.min(), size.min()), 1.07 * max(size))
 
-        # N <R>^d stays constant once the distribution of R / <R> does
+        # N <R>^d is constant once the distribution of R / <R> is
         right.loglog(tau, number, color=BLUE)
         right.set_ylabel(r"bubbles  $N$")
-        start = 1.5 * np.interp(guide[0], tau, number)
         labels = ("−1", "−2/3") if dim == 2 else ("−3/2", "−1")
-        slope_guides(right, guide, start, (-dim / 2, -dim / 3), labels)
-        low, high = number.min() * 0.8, max(number.max(), start) * 1.25
-        right.set_ylim(low, high)
-        plain_ticks(right.yaxis, low, high)
+        guides = slope_guides(right, tau, number, 2.0, dict(zip(labels, (-dim / 2, -dim / 3))))
+        limit_axis(right.yaxis, 0.8 * number[-1], 1.25 * max(guides.max(), number.max()))
 
         for ax in (left, right):
             ax.set_xlabel(TAU)
-            ax.set_xlim(max(tau[0], tau[-1] * 1e-4), tau[-1] * 2)
+            ax.set_xlim(max(tau[0], tau[-1] * 1e-3), tau[-1] * 2)
         fig.savefig(path)
         plt.close(fig)
 
@@ -191,7 +190,7 @@ def plot_foam(frames, series, path, dim, rin):
             ax.set_title(rf"$\tau = {tau:.3g}$,   {count} bubbles", pad=8)
         bar = fig.colorbar(axes[0].collections[0], ax=axes, shrink=0.82, aspect=28, pad=0.012)
         bar.set_label(r"radius  $R\,/\,\langle R_\mathrm{in}\rangle$")
-        plain_ticks(bar.ax.yaxis, norm.vmin, norm.vmax)
+        limit_axis(bar.ax.yaxis, norm.vmin, norm.vmax)
         bar.outline.set_linewidth(0.6)
         fig.savefig(path)
         plt.close(fig)
