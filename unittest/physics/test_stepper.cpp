@@ -73,7 +73,8 @@ TEST(Corrector, LinearRateIsExact)
 {
   // y = t + t^2 from t = 0.3
   const double t = 0.3, h = 0.7;
-  EXPECT_NEAR(correct(t + t * t, 1.0 + 2.0 * t, 1.0 + 2.0 * (t + h), h), (t + h) + (t + h) * (t + h),
+  const double end = t + h;
+  EXPECT_NEAR(correct(t + t * t, 1.0 + 2.0 * t, 1.0 + 2.0 * end, h), end + end * end,
               4.0 * EPS);
 }
 
