@@ -192,7 +192,7 @@ def plot_foam(frames, series, path, dim, rin):
         bar.set_label(r"radius  $R\,/\,\langle R_\mathrm{in}\rangle$")
         limit_axis(bar.ax.yaxis, norm.vmin, norm.vmax)
         bar.outline.set_linewidth(0.6)
-        fig.savefig(path)
+        fig.savefig(path, bbox_inches="tight", pad_inches=0.08)
         plt.close(fig)
 
 

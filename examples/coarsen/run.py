@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Run in.coarsen and make a table and pictures of it.
 
-    python3 run.py --lmp "mpiexec -n 2 lmp" --out DIR [--var NAME VALUE ...] ...
+    python3 run.py --lmp "mpiexec -n 2 lmp" --out DIR [--var NAME VALUE] ...
 
     python3 run.py --lmp lmp --out small --var N 1000 --var end 100
 """
@@ -27,17 +27,15 @@ def main():
                         help='how to start LAMMPS, as one string (default "%(default)s")')
     parser.add_argument("--out", default="out", type=Path, metavar="DIR",
                         help='where everything is written (default "%(default)s")')
-    parser.add_argument("--var", nargs="+", action="append", default=[], metavar=("NAME", "VALUE"),
+    parser.add_argument("--var", nargs=2, action="append", default=[], metavar=("NAME", "VALUE"),
                         help="a variable of in.coarsen, such as --var N 2000; may be repeated")
     args = parser.parse_args()
 
     script = Path(__file__).resolve().with_name("in.coarsen")
     args.out.mkdir(parents=True, exist_ok=True)
     command = command_words(args.lmp) + ["-in", str(script), "-log", "log.coarsen"]
-    for words in args.var:
-        if len(words) < 2:
-            parser.error(f"--var {words[0]}: a value is missing")
-        command += ["-var", *words]
+    for name, value in dict(args.var).items():        # the last one counts, if one is repeated
+        command += ["-var", name, value]
 
     started = time.perf_counter()
     try:
