@@ -39,7 +39,8 @@ FixFoamIntegrate::FixFoamIntegrate(LAMMPS *lmp, int narg, char **arg) :
     variable(Variable::VOLUME), norm(Norm::MAX), dt_start(0.0), dt_limit(0.0),
     drift_removed(false), time(0.0), h(0.0), h_before(0.0), accepted(0.0), rejected(0.0),
     evaluations(0.0), error_last(0.0), columns(NCOLUMNS), lags(NLAGS), x_start(nullptr),
-    q_start(nullptr), radius_start(nullptr), rate(nullptr), x_listed(nullptr), radius_listed(nullptr), nscratch(0), nlisted(0),
+    q_start(nullptr), radius_start(nullptr), v_start(nullptr), rate(nullptr), x_listed(nullptr), radius_listed(nullptr), nscratch(0), nlisted(0),
+    v_copy(nullptr),
     list_is_new(false), stopping(false), have_lags(false)
 {
   if (narg < 4) error->all(FLERR, "Fix {} needs the tolerance as first argument", style);
@@ -106,6 +107,7 @@ FixFoamIntegrate::~FixFoamIntegrate()
   memory->destroy(x_start);
   memory->destroy(q_start);
   memory->destroy(radius_start);
+  memory->destroy(v_copy);
   memory->destroy(rate);
   memory->destroy(x_listed);
   memory->destroy(radius_listed);
@@ -310,10 +312,23 @@ void FixFoamIntegrate::keep_start()
     memory->grow(x_start, nscratch, 3, "foam:x_start");
     memory->grow(q_start, nscratch, "foam:q_start");
     memory->grow(radius_start, nscratch, "foam:radius_start");
+    memory->destroy(v_copy);
   }
+  if (pair->neighbor_drag && !v_copy) memory->create(v_copy, nscratch, 3, "foam:v_copy");
   const int nlocal = atom->nlocal;
+  v_start = atom->v;
   if (nlocal == 0) return;
   memcpy(&x_start[0][0], &atom->x[0][0], 3 * sizeof(double) * nlocal);
+
+  // the pair style finds l in atom->v, also that of ghosts; the source takes v itself for l
+
+  if (pair->neighbor_drag && evaluates_again()) {
+    memcpy(&v_copy[0][0], &atom->v[0][0], 3 * sizeof(double) * nlocal);
+    v_start = v_copy;
+    for (int i = 0; i < nlocal; i++)
+      for (int k = 0; k < dim; k++)
+        atom->v[i][k] = Foam::lagged_velocity(v_start[i][k], lags[LAGX + k][i]);
+  }
   if (!gas) return;
   memcpy(q_start, columns[Q], sizeof(double) * nlocal);
   memcpy(radius_start, atom->radius, sizeof(double) * nlocal);
@@ -597,6 +612,8 @@ void FixFoamIntegrate::box_corners(double (*corners)[3]) const
 void FixFoamIntegrate::rebuild_lists()
 {
   timer->stamp(Timer::MODIFY);
+  if (v_start != atom->v && atom->nlocal)    // f_n travels with the bubbles, l is made of it anew
+    memcpy(&atom->v[0][0], &v_start[0][0], 3 * sizeof(double) * atom->nlocal);
   modify->pre_exchange();
   if (domain->triclinic) domain->x2lamda(atom->nlocal);
   domain->pbc();
@@ -830,5 +847,6 @@ void FixFoamIntegrate::restart(char *buf)
 
 double FixFoamIntegrate::memory_usage()
 {
-  return columns.bytes() + lags.bytes() + sizeof(double) * 5.0 * (nscratch + nlisted);
+  const double scratch = 5.0 * (nscratch + nlisted) + (v_copy ? 3.0 * nscratch : 0.0);
+  return columns.bytes() + lags.bytes() + sizeof(double) * scratch;
 }

@@ -84,8 +84,8 @@ class FixFoamIntegrate : public Fix {
   enum { Q, QDOT, VX_BEFORE, VY_BEFORE, VZ_BEFORE, QDOT_BEFORE, NCOLUMNS };
   FoamColumns columns;
 
-  // neighbor drag only: the velocities that the evaluation of the present ones took as given,
-  // and the velocities with which the last run ended
+  // neighbor drag only: the velocities l that the evaluation of the present ones took as given,
+  // see Foam::lagged_velocity(), and the velocities with which the last run ended
 
   enum { LAGX, LAGY, LAGZ, LASTX, LASTY, LASTZ, NLAGS };
   FoamColumns lags;
@@ -98,19 +98,20 @@ class FixFoamIntegrate : public Fix {
     double moved = 0.0;              // farthest that an evaluated state is from the listed one
   };
   virtual Trial attempt(double step) = 0;    // leaves its candidate in x, Q and radius
-  virtual void keep_history() = 0;           // accepted; v and QDOT still are those of the start
+  virtual void keep_history() = 0;           // accepted; v_start and QDOT still are f_n
   virtual bool evaluates_again() const { return true; }    // or has the next rates already
 
   // ---- what a scheme uses
 
   double **x_start;    // y_n, and the radii in it
   double *q_start, *radius_start;
+  double **v_start;    // v of f_n: atom->v itself, unless neighbor drag needs that for l
   double *rate;    // qdot as evaluated last
 
   double **x_listed;         // where bubbles were when the neighbor list was built,
   double *radius_listed;     // and how large
 
-  void evaluate();    // forces, drag and qdot of the state in x, radius
+  void evaluate();    // forces, drag (from l in atom->v) and qdot of the state in x, radius
 
   struct Velocities {    // of the state evaluated last
     const double *const *f, *const *vsum;    // vsum is null with static drag
@@ -133,6 +134,7 @@ class FixFoamIntegrate : public Fix {
 
  private:
   int nscratch, nlisted;    // allocated lengths
+  double **v_copy;
   double corners_listed[8][3];
   bool list_is_new;    // built at the present state
   bool stopping;       // the run has reached its end

@@ -137,6 +137,17 @@ FOAM_FUNCTION double mean_of_neighbors(double sum, double contacts)
   return contacts > 0.0 ? sum / contacts : 0.0;
 }
 
+// The neighbors' velocities are taken from what is known already, l, which makes the equation
+// an iteration, v = F / mu0 + A l, A the averaging.  With l the velocities of the last state
+// it never settles: for two bubbles in contact A has the eigenvalue -1, and v alternates
+// between 0 and twice its due.  The mean of them and of what they were computed with maps
+// an eigenvalue m of A to (1 + m) / 2, within [0, 1].
+
+FOAM_FUNCTION double lagged_velocity(double v, double l)
+{
+  return 0.5 * (v + l);
+}
+
 // ---------------------------------------------------------------------- gas through the liquid
 
 // Both laws exchange gas in proportion to a weight of the free surface,

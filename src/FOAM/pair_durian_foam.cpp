@@ -441,7 +441,10 @@ void PairDurianFoam::setup()
 
 void PairDurianFoam::refresh()
 {
+  const int manybody = force->pair->manybody_flag;
+  force->pair->manybody_flag = 1;    // no message on mixed coefficients in mid-run
   force->pair->init();
+  force->pair->manybody_flag = manybody;
   for (auto &ifix : modify->get_fix_list())
     if (neighbor->find_list(ifix)) ifix->init();
   for (auto &icompute : modify->get_compute_list())
