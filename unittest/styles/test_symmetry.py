@@ -270,6 +270,9 @@ def test_triclinic(lmp, base, dim, tilt, ranks):
 
 FIRST, SECOND = 100, 60
 
+PUSH = """fix push all addforce 0.01 0 0
+fix wall all indent 1.0 sphere 8 8 0 3.0"""
+
 INTERRUPTED = {
     "static": dict(),
     "neighbor": dict(pair="drag neighbor"),
@@ -280,12 +283,13 @@ INTERRUPTED = {
                              step="1e-3 variable radius norm rms dtmax 0.5"),
     "sorted often": dict(sort="20 0.0"),
     "never sorted": dict(sort="0 0.0"),
+    "other forces": dict(extra=PUSH),    # fixes that come after the integrator
     "3D": dict(dim=3),
     "neighbor 3D sorted often": dict(dim=3, pair="drag neighbor", sort="20 0.0"),
 }
 
 
-def continued(pair="", gas="3e-2 0.1", step="1e-3", sort="1000 0.0", dim=2, again=""):
+def continued(pair="", gas="3e-2 0.1", step="1e-3", sort="1000 0.0", dim=2, extra=""):
     return f"""
 atom_modify   sort {sort}
 read_restart  state
@@ -299,7 +303,7 @@ thermo_style  custom step atoms time pe c_p[*] f_gas[*] f_step[*]
 thermo        10
 dump          d all custom 10 dump2 id x y z vx vy vz fx fy fz radius c_b[*]
 dump_modify   d sort id format float %.17g
-{again}
+{extra}
 run           {SECOND}
 """
 
@@ -318,7 +322,7 @@ def test_restart_is_bitwise(lmp, name, way, ranks):
     x, R, v, box = foam(dim, 10 if dim == 2 else SIZE[3], seed=11)
     keywords = {k: how[k] for k in ("pair", "step") if k in how}
     keywords.update(gas=how.get("gas", "3e-2 0.1"), every=10)
-    sort = f"atom_modify sort {how.get('sort', '1000 0.0')}"
+    sort = f"atom_modify sort {how.get('sort', '1000 0.0')}\n" + how.get("extra", "")
     if way == "restart":    # in mid-run
         first = case(dim, after=sort + f"\nrestart {FIRST} state.*",
                      run=f"run {FIRST + SECOND}", **keywords)
