@@ -10,6 +10,7 @@
 #include "fix_foam_coarsen.h"
 
 #include "fix_foam_integrate.h"
+#include "foam_input.h"
 #include "lammps_compat.h"
 #include "pair_durian_foam.h"
 
@@ -21,7 +22,6 @@
 #include "modify.h"
 #include "update.h"
 
-#include <cmath>
 #include <cstring>
 
 using namespace LAMMPS_NS;
@@ -30,22 +30,17 @@ using namespace FixConst;
 /* ---------------------------------------------------------------------- */
 
 FixFoamCoarsen::FixFoamCoarsen(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), pair(nullptr), reduce(world), law(Foam::LiquidLaw::AREA), rmin(0.1),
-    ain_given(0.0), nmin(0), time(0.0), removed_bubbles(0.0), removed_gas(0.0), rho(0.0),
+    Fix(lmp, narg, arg), rho(0.0), pair(nullptr), reduce(world), law(Foam::LiquidLaw::AREA),
+    rmin(0.1), ain_given(0.0), nmin(0), time(0.0), removed_bubbles(0.0), removed_gas(0.0),
     dead(false)
 {
   if (narg < 5) error->all(FLERR, "Fix foam/coarsen needs K and kappa as first arguments");
   if (igroup != 0)
     error->all(FLERR, "Fix foam/coarsen needs group all, since gas exchange couples all bubbles");
 
-  auto number = [&](const char *name, const char *text, double low, const char *allowed) {
-    const double value = utils::numeric(FLERR, text, false, lmp);
-    if (!std::isfinite(value) || value < low)
-      error->all(FLERR, "Fix foam/coarsen: {} must be a number {}, not {}", name, allowed, text);
-    return value;
-  };
-  K = number("K", arg[3], 0.0, ">= 0");
-  kappa = number("kappa", arg[4], 0.0, ">= 0");
+  const FoamInput input(lmp, error, "Fix foam/coarsen");
+  K = input.number("K", arg[3], FoamInput::AT_LEAST, 0.0);
+  kappa = input.number("kappa", arg[4], FoamInput::AT_LEAST, 0.0);
 
   for (int iarg = 5; iarg < narg; iarg += 2) {
     const std::string keyword = arg[iarg];
@@ -54,16 +49,12 @@ FixFoamCoarsen::FixFoamCoarsen(LAMMPS *lmp, int narg, char **arg) :
                  keyword);
     const char *value = arg[iarg + 1];
     if (keyword == "rmin")
-      rmin = number("rmin", value, 0.0, ">= 0");
-    else if (keyword == "ain") {
-      ain_given = number("ain", value, 0.0, "> 0");
-      if (ain_given == 0.0)
-        error->all(FLERR, "Fix foam/coarsen: ain must be a number > 0, not {}", value);
-    } else if (keyword == "nmin") {
-      nmin = utils::bnumeric(FLERR, value, false, lmp);
-      if (nmin < 0)
-        error->all(FLERR, "Fix foam/coarsen: nmin must be an integer >= 0, not {}", value);
-    } else if (keyword == "liquid") {
+      rmin = input.number("rmin", value, FoamInput::AT_LEAST, 0.0);
+    else if (keyword == "ain")
+      ain_given = input.number("ain", value, FoamInput::ABOVE, 0.0);
+    else if (keyword == "nmin")
+      nmin = input.count("nmin", value);
+    else if (keyword == "liquid") {
       if (strcmp(value, "area") == 0)
         law = Foam::LiquidLaw::AREA;
       else if (strcmp(value, "lsw") == 0)
@@ -276,11 +267,11 @@ double FixFoamCoarsen::compute_vector(int n)
 
 void FixFoamCoarsen::write_restart(FILE *fp)
 {
-  const double values[3] = {time, removed_bubbles, removed_gas};
+  const double values[4] = {time, removed_bubbles, removed_gas, rho};
   if (comm->me == 0) {
     const int size = sizeof(values);
     fwrite(&size, sizeof(int), 1, fp);
-    fwrite(values, sizeof(double), 3, fp);
+    fwrite(values, sizeof(double), 4, fp);
   }
 }
 
@@ -290,4 +281,5 @@ void FixFoamCoarsen::restart(char *buf)
   time = values[0];
   removed_bubbles = values[1];
   removed_gas = values[2];
+  rho = values[3];
 }

@@ -65,6 +65,7 @@ class FixFoamCoarsen : public Fix {
   std::string end_reached() const;    // why the run is over, or empty
 
   double K, kappa;
+  double rho;    // of the rates evaluated last; 0 without exchange through the liquid
   bool has_dead() const { return dead; }
 
  protected:
@@ -76,7 +77,6 @@ class FixFoamCoarsen : public Fix {
   bigint nmin;
   double time;    // spent coarsening
   double removed_bubbles, removed_gas;
-  double rho;    // of the rates evaluated last; 0 without exchange through the liquid
   bool dead;     // there are removed bubbles, on any rank, that are not yet taken out
 
   void take_out_dead();

@@ -10,6 +10,7 @@
 #include "fix_foam_integrate.h"
 
 #include "fix_foam_coarsen.h"
+#include "foam_input.h"
 #include "pair_durian_foam.h"
 
 #include "atom.h"
@@ -24,8 +25,10 @@
 #include "timer.h"
 #include "update.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <vector>
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
@@ -38,22 +41,19 @@ FixFoamIntegrate::FixFoamIntegrate(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), pair(nullptr), gas(nullptr), reduce(world), dim(domain->dimension),
     variable(Variable::VOLUME), norm(Norm::MAX), dt_start(0.0), dt_limit(0.0),
     drift_removed(false), time(0.0), h(0.0), h_before(0.0), accepted(0.0), rejected(0.0),
-    evaluations(0.0), error_last(0.0), columns(NCOLUMNS), lags(NLAGS), x_start(nullptr),
+    evaluations(0.0), error_last(0.0), bubbles_last(0.0),
+    columns(NCOLUMNS), lags(NLAGS), x_start(nullptr),
     q_start(nullptr), radius_start(nullptr), v_start(nullptr), rate(nullptr), x_listed(nullptr), radius_listed(nullptr), nscratch(0), nlisted(0),
     v_copy(nullptr),
     list_is_new(false), stopping(false), have_lags(false)
 {
   if (narg < 4) error->all(FLERR, "Fix {} needs the tolerance as first argument", style);
   if (igroup != 0)
-    error->all(FLERR, "Fix {} needs group all; hold bubbles in place with fix setforce 0 0 0", style);
+    error->all(FLERR, "Fix {} needs group all; with static drag, fix setforce 0 0 0 holds bubbles "
+               "in place", style);
 
-  auto number = [&](const char *name, const char *text) {
-    const double value = utils::numeric(FLERR, text, false, lmp);
-    if (!std::isfinite(value) || value <= 0.0)
-      error->all(FLERR, "Fix {}: {} must be a number > 0, not {}", style, name, text);
-    return value;
-  };
-  control.tolerance = number("tolerance", arg[3]);
+  const FoamInput input(lmp, error, fmt::format("Fix {}", style));
+  control.tolerance = input.number("tolerance", arg[3], FoamInput::ABOVE, 0.0);
 
   const std::string keywords = "dt0, dtmax, variable, norm, scheme, drift";
   for (int iarg = 4; iarg < narg; iarg += 2) {
@@ -67,9 +67,9 @@ FixFoamIntegrate::FixFoamIntegrate(LAMMPS *lmp, int narg, char **arg) :
       return value == second;
     };
     if (keyword == "dt0")
-      dt_start = number("dt0", arg[iarg + 1]);
+      dt_start = input.number("dt0", value, FoamInput::ABOVE, 0.0);
     else if (keyword == "dtmax")
-      dt_limit = number("dtmax", arg[iarg + 1]);
+      dt_limit = input.number("dtmax", value, FoamInput::ABOVE, 0.0);
     else if (keyword == "variable")
       variable = one_of("volume", "radius") ? Variable::RADIUS : Variable::VOLUME;
     else if (keyword == "norm")
@@ -130,14 +130,27 @@ void FixFoamIntegrate::init()
   if (utils::strmatch(update->integrate_style, "^respa"))
     error->all(FLERR, "Fix {} cannot be used with run_style respa: use verlet", style);
 
+  if (!(neighbor->skin > 0.0))
+    error->all(FLERR, "Fix {} needs a neighbor skin > 0, in which bubbles may move and grow: "
+               "see the neighbor command", style);
+
   gas = nullptr;
   int integrators = 0;
   for (auto &ifix : modify->get_fix_list()) {
     if (auto *found = dynamic_cast<FixFoamCoarsen *>(ifix)) gas = found;
     if (ifix->time_integrate) integrators++;
+    if (comm->me == 0 && utils::strmatch(ifix->style, "^deform"))
+      error->warning(FLERR, "Fix {} changes the timestep, and fix deform takes the strain of styles "
+                     "vel, erate, trate and wiggle for steps times the present timestep: "
+                     "use its style variable, with the time of fix {}", style, style);
   }
   if (integrators > 1)
     error->all(FLERR, "Fix {} must be the only fix that integrates in time", style);
+  if (gas)
+    for (auto &ifix : modify->get_fix_list())
+      if (ifix->diam_flag)
+        error->all(FLERR, "Fix {}: fix {} also changes radii, which are those of fix foam/coarsen",
+                   style, ifix->style);
 
   // what is switched off is not gathered
 
@@ -171,11 +184,8 @@ void FixFoamIntegrate::check_bubbles()
   double *const q = columns[Q];
   for (int i = 0; i < atom->nlocal; i++) {
     const double R = atom->radius[i];
-    if ((dim == 2 ? radius_of<2>(q[i]) : radius_of<3>(q[i])) == R) continue;
-    if (variable == Variable::RADIUS)
-      q[i] = R;
-    else
-      q[i] = dim == 2 ? Foam::power_of_radius<2>(R) : Foam::power_of_radius<3>(R);
+    if ((dim == 2 ? radius_of<2>(q[i]) : radius_of<3>(q[i])) != R)
+      q[i] = dim == 2 ? q_of<2>(R) : q_of<3>(R);
   }
 }
 
@@ -204,32 +214,58 @@ void FixFoamIntegrate::setup_pre_force(int)
 void FixFoamIntegrate::setup(int)
 {
   stopping = false;
+  check_ghosts();
 
-  if (evaluates_again() || h_before == 0.0) {
+  // Fixes that come after this one in the input have not added their forces yet, and will, to
+  // those in f: the rates need all of them now.
+
+  const bool others = modify->n_post_force_any;
+  const size_t n = 3 * size_t(atom->nlocal + (force->newton ? atom->nghost : 0));
+  double *const f = n ? &atom->f[0][0] : nullptr;
+  std::vector<double> f_so_far;
+  const double rho = gas ? gas->rho : 0.0;
+  if (others) {
+    f_so_far.assign(f, f + n);
+    evaluate();
+  } else {
     evaluations++;
     exchange_rates();
-
-    // The history of steps is good for as long as the state is the one that it led to: if
-    // a command has changed the foam, the rates are no longer those at the end of the last run.
-
-    FoamTotals mine;
-    const Velocities velocity = velocities();
-    const bool lagged = pair->neighbor_drag && have_lags;
-    for (int i = 0; i < atom->nlocal; i++) {
-      for (int k = 0; k < dim; k++) {
-        const double now = velocity(i, k);
-        const double then = lagged ? lags[LASTX + k][i] : atom->v[i][k];
-        mine.max[0] = MAX(mine.max[0], std::fabs(drift_removed ? 0.0 : now - then));
-        mine.max[1] = MAX(mine.max[1], std::fabs(now));
-      }
-      mine.max[2] = MAX(mine.max[2], std::fabs(rate[i] - columns[QDOT][i]));
-      mine.max[3] = MAX(mine.max[3], std::fabs(rate[i]));
-    }
-    const FoamTotals all = reduce(mine);
-    constexpr double SAME = 1.0e-6;    // well above rounding, well below any change of interest
-    if (all.max[0] > SAME * all.max[1] || all.max[2] > SAME * all.max[3]) h_before = 0.0;
-    take_rates();
   }
+
+  // The history of steps is good for as long as the state is the one that it led to: if a
+  // command has changed the foam, the rates are no longer those at the end of the last run.
+  // Those of the source belong to the predicted state, within the tolerance of the present one.
+
+  FoamTotals mine;
+  const Velocities velocity = velocities();
+  const bool again = evaluates_again();
+  const bool lagged = pair->neighbor_drag && have_lags && again;
+  for (int i = 0; i < atom->nlocal; i++) {
+    for (int k = 0; k < dim; k++) {
+      const double now = velocity(i, k);
+      const double then = lagged ? lags[LASTX + k][i] : atom->v[i][k];
+      mine.max[0] = MAX(mine.max[0], std::fabs(drift_removed ? 0.0 : now - then));
+      mine.max[1] = MAX(mine.max[1], std::fabs(now));
+    }
+    mine.max[2] = MAX(mine.max[2], std::fabs(rate[i] - columns[QDOT][i]));
+    mine.max[3] = MAX(mine.max[3], std::fabs(rate[i]));
+  }
+  const FoamTotals all = reduce(mine);
+  constexpr double SAME = 1.0e-6;    // well above rounding, well below any change of interest
+  double v_same = SAME * all.max[1], qdot_same = SAME * all.max[3];
+  if (!again) {
+    v_same += 10.0 * control.tolerance * pair->rin / natural_time();
+    qdot_same += std::sqrt(10.0 * control.tolerance) * all.max[3];    // contact area ~ sqrt(overlap)
+  }
+  if (all.max[0] > v_same || all.max[2] > qdot_same || bubbles_last != atom->natoms) h_before = 0.0;
+
+  if (again || h_before == 0.0)
+    take_rates();
+  else {
+    evaluations--;    // only looked at: the rates of the last run go on
+    if (gas) gas->rho = rho;
+  }
+  std::copy(f_so_far.begin(), f_so_far.end(), f);
 
   if (h == 0.0) h = dt_start > 0.0 ? dt_start : update->dt;
   update->update_time();
@@ -240,6 +276,21 @@ void FixFoamIntegrate::setup(int)
     const std::string reason = gas->end_reached();
     if (!reason.empty()) stop_run(reason);
   }
+}
+
+// fix foam/coarsen changes radii, and those of ghosts have to follow: atom_style sphere 1
+
+void FixFoamIntegrate::check_ghosts()
+{
+  if (!gas) return;
+  for (int i = atom->nlocal; i < atom->nlocal + atom->nghost; i++) atom->radius[i] = -1.0;
+  comm->forward_comm();
+  FoamTotals mine;
+  for (int i = atom->nlocal; i < atom->nlocal + atom->nghost; i++)
+    if (atom->radius[i] < 0.0) mine.sum[0] += 1.0;
+  if (reduce(mine).sum[0] > 0.0)
+    error->all(FLERR, "Fix foam/coarsen changes radii, which have to be communicated in every step: "
+               "use atom_style sphere 1");
 }
 
 void FixFoamIntegrate::take_population()
@@ -573,6 +624,10 @@ void FixFoamIntegrate::post_neighbor()
   }
   if (domain->box_change) box_corners(corners_listed);
   list_is_new = true;
+
+  // other fixes may just have put bubbles in or taken them out
+
+  if (gas && gas->population.bubbles != atom->natoms) take_population();
 }
 
 // half of the skin, less what a moving box takes away (the two corners that moved most)
@@ -664,6 +719,11 @@ void FixFoamIntegrate::schedule_time_dumps(bool foreseen)
   output->next_dump_any = output->next_time_dump_any = MAXBIGINT;
   for (int d = 0; d < output->ndump; d++) {
     if (output->mode_dump[d] == 1) {
+      // LAMMPS, after a dump, goes on to the next multiple, which this step may have passed
+      const double every = output->every_time_dump[d], before = update->atime - update->dt;
+      if (every > 0.0 && output->last_dump[d] == now - 1)
+        output->next_time_dump[d] = (std::floor((before + slack) / every) + 1.0) * every;
+
       const double target = output->next_time_dump[d] - slack;
       bigint &next = output->next_dump[d];
       if (update->atime >= target && foreseen)
@@ -723,6 +783,7 @@ void FixFoamIntegrate::end_of_step()
 
 void FixFoamIntegrate::post_run()
 {
+  bubbles_last = atom->natoms;
   if (stopping) timer->reset_timeout();
   if (lags.in_use())
     for (int i = 0; i < atom->nlocal; i++)
@@ -776,10 +837,15 @@ void FixFoamIntegrate::copy_arrays(int i, int j, int)
   lags.copy(i, j);
 }
 
+// a new bubble, of the radius that it has so far: see check_bubbles()
+
 void FixFoamIntegrate::set_arrays(int i)
 {
   columns.clear(i);
   lags.clear(i);
+  if (!atom->radius_flag) return;
+  const double R = atom->radius[i];
+  columns[Q][i] = dim == 2 ? q_of<2>(R) : q_of<3>(R);
 }
 
 int FixFoamIntegrate::pack_exchange(int i, double *buf)
@@ -829,20 +895,22 @@ int FixFoamIntegrate::maxsize_restart()
 
 void FixFoamIntegrate::write_restart(FILE *fp)
 {
-  const double values[7] = {time, h, h_before, accepted, rejected, evaluations, error_last};
+  const double values[8] = {time,        h,          h_before,
+                            accepted,    rejected,   evaluations,
+                            error_last,  double(atom->natoms)};
   if (comm->me == 0) {
     const int size = sizeof(values);
     fwrite(&size, sizeof(int), 1, fp);
-    fwrite(values, sizeof(double), 7, fp);
+    fwrite(values, sizeof(double), 8, fp);
   }
 }
 
 void FixFoamIntegrate::restart(char *buf)
 {
-  double *const all[7] = {&time,     &h,           &h_before,  &accepted,
-                          &rejected, &evaluations, &error_last};
   const auto *values = (const double *) buf;
-  for (int m = 0; m < 7; m++) *all[m] = values[m];
+  double *const all[] = {&time,     &h,           &h_before,   &accepted,
+                         &rejected, &evaluations, &error_last, &bubbles_last};
+  for (double *one : all) *one = *values++;
 }
 
 double FixFoamIntegrate::memory_usage()

@@ -78,6 +78,7 @@ class FixFoamIntegrate : public Fix {
 
   double time, h, h_before;    // h: next step to try; h_before: last accepted, 0 without history
   double accepted, rejected, evaluations, error_last;
+  double bubbles_last;    // their number at the end of the last run
 
   // per bubble, travelling with it
 
@@ -131,6 +132,10 @@ class FixFoamIntegrate : public Fix {
     if (variable == Variable::VOLUME) return Foam::radius_of_power<D>(q);
     return q < 0.0 ? 0.0 : q;
   }
+  template <int D> double q_of(double R) const
+  {
+    return variable == Variable::VOLUME ? Foam::power_of_radius<D>(R) : R;
+  }
 
  private:
   int nscratch, nlisted;    // allocated lengths
@@ -155,6 +160,7 @@ class FixFoamIntegrate : public Fix {
   void take_population();
   void schedule_time_dumps(bool foreseen);
   void check_bubbles();
+  void check_ghosts();
   void stop_run(const std::string &);
   bool output_due() const;
   double largest_step() const;

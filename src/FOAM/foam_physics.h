@@ -65,7 +65,7 @@ template <int D> FOAM_FUNCTION double surface(double R)
 // Square of the lens radius h of two overlapping bubbles at distance r.  With
 // a = (r^2 + R_j^2 - R_i^2) / (2 r), h^2 = R_j^2 - a^2 is the squared height of
 // the triangle with sides r, R_i, R_j; Heron's product loses no digits where
-// the bubbles just touch.  Once the lens plane has passed the centre of the
+// the bubbles just touch, nor where equal ones nearly coincide.  Once the lens plane has passed the centre of the
 // smaller bubble, r^2 <= |R_i^2 - R_j^2|, h would shrink again and turn
 // imaginary: there the smaller bubble shows its full cross-section.
 
@@ -74,7 +74,7 @@ FOAM_FUNCTION double lens_radius_squared(double r, double Ri, double Rj)
   const double smaller = Ri < Rj ? Ri : Rj;
   if (r * r <= std::fabs((Ri - Rj) * (Ri + Rj))) return smaller * smaller;
   const double h2 =
-      (Ri + Rj - r) * (Ri + Rj + r) * ((r + Ri - Rj) * (r + Rj - Ri)) / (4.0 * r * r);
+      (Ri + Rj - r) * (Ri + Rj + r) * ((r + (Ri - Rj)) * (r - (Ri - Rj))) / (4.0 * r * r);
   return h2 > 0.0 ? h2 : 0.0;
 }
 

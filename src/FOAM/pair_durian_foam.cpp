@@ -9,6 +9,7 @@
 
 #include "pair_durian_foam.h"
 
+#include "foam_input.h"
 #include "foam_physics.h"
 
 #include "atom.h"
@@ -319,9 +320,8 @@ void PairDurianFoam::settings(int narg, char **arg)
 {
   if (narg < 1)
     error->all(FLERR, "Pair style durian/foam needs the drag coefficient mu0 as first argument");
-  mu0 = utils::numeric(FLERR, arg[0], false, lmp);
-  if (!(mu0 > 0.0) || !std::isfinite(mu0))
-    error->all(FLERR, "Pair style durian/foam: mu0 must be a number > 0, not {}", arg[0]);
+  const FoamInput input(lmp, error, "Pair style durian/foam");
+  mu0 = input.number("mu0", arg[0], FoamInput::ABOVE, 0.0);
 
   neighbor_drag = false;
   headroom = 1.2;
@@ -340,14 +340,10 @@ void PairDurianFoam::settings(int narg, char **arg)
       else
         error->all(FLERR, "Pair style durian/foam: drag must be static or neighbor, not {}", value);
     } else if (keyword == "rin") {
-      rin = utils::numeric(FLERR, value, false, lmp);
-      if (!(rin > 0.0) || !std::isfinite(rin))
-        error->all(FLERR, "Pair style durian/foam: rin must be a number > 0, not {}", value);
+      rin = input.number("rin", value, FoamInput::ABOVE, 0.0);
       rin_fixed = true;
     } else if (keyword == "headroom") {
-      headroom = utils::numeric(FLERR, value, false, lmp);
-      if (!(headroom >= 1.0) || !std::isfinite(headroom))
-        error->all(FLERR, "Pair style durian/foam: headroom must be a number >= 1, not {}", value);
+      headroom = input.number("headroom", value, FoamInput::AT_LEAST, 1.0);
     } else
       error->all(FLERR, "Pair style durian/foam: unknown keyword {} (allowed are drag, rin, headroom)",
                  keyword);
@@ -365,10 +361,8 @@ void PairDurianFoam::coeff(int narg, char **arg)
   int ilo, ihi, jlo, jhi;
   utils::bounds(FLERR, arg[0], 1, atom->ntypes, ilo, ihi, error);
   utils::bounds(FLERR, arg[1], 1, atom->ntypes, jlo, jhi, error);
-  const double value = utils::numeric(FLERR, arg[2], false, lmp);
-  if (!(value >= 0.0) || !std::isfinite(value))
-    error->all(FLERR, "Pair style durian/foam: sigma0 in pair_coeff must be a number >= 0, not {}",
-               arg[2]);
+  const double value = FoamInput(lmp, error, "Pair style durian/foam")
+                           .number("sigma0 in pair_coeff", arg[2], FoamInput::AT_LEAST, 0.0);
 
   int count = 0;
   for (int i = ilo; i <= ihi; i++)
@@ -449,7 +443,10 @@ void PairDurianFoam::refresh()
     if (neighbor->find_list(ifix)) ifix->init();
   for (auto &icompute : modify->get_compute_list())
     if (neighbor->find_list(icompute)) icompute->init();
+  const bigint ncalls = neighbor->ncalls, ndanger = neighbor->ndanger;
   neighbor->init();
+  neighbor->ncalls = ncalls;    // the counts go on
+  neighbor->ndanger = ndanger;
   comm->setup();
   if (neighbor->style) neighbor->setup_bins();
 }
