@@ -44,7 +44,7 @@ FixFoamIntegrate::FixFoamIntegrate(LAMMPS *lmp, int narg, char **arg) :
     evaluations(0.0), error_last(0.0), bubbles_last(0.0),
     columns(NCOLUMNS), lags(NLAGS), x_start(nullptr),
     q_start(nullptr), radius_start(nullptr), v_start(nullptr), rate(nullptr), x_listed(nullptr), radius_listed(nullptr), nscratch(0), nlisted(0),
-    v_copy(nullptr),
+    v_copy(nullptr), dump_foreseen(-1), ghosts_checked(false),
     list_is_new(false), stopping(false), have_lags(false)
 {
   if (narg < 4) error->all(FLERR, "Fix {} needs the tolerance as first argument", style);
@@ -94,6 +94,7 @@ FixFoamIntegrate::FixFoamIntegrate(LAMMPS *lmp, int narg, char **arg) :
 
   restart_global = 1;
   restart_peratom = 1;
+  create_attribute = 1;
   maxexchange = columns.count_in_use() + lags.count_in_use();
   columns.use(atom->nmax);
   atom->add_callback(Atom::GROW);
@@ -214,7 +215,6 @@ void FixFoamIntegrate::setup_pre_force(int)
 void FixFoamIntegrate::setup(int)
 {
   stopping = false;
-  check_ghosts();
 
   // Fixes that come after this one in the input have not added their forces yet, and will, to
   // those in f: the rates need all of them now.
@@ -234,7 +234,8 @@ void FixFoamIntegrate::setup(int)
 
   // The history of steps is good for as long as the state is the one that it led to: if a
   // command has changed the foam, the rates are no longer those at the end of the last run.
-  // Those of the source belong to the predicted state, within the tolerance of the present one.
+  // Those of the source belong to the predicted state, within the tolerance of the present one;
+  // its velocities with neighbor drag do not settle, and so tell nothing.
 
   FoamTotals mine;
   const Velocities velocity = velocities();
@@ -254,7 +255,8 @@ void FixFoamIntegrate::setup(int)
   constexpr double SAME = 1.0e-6;    // well above rounding, well below any change of interest
   double v_same = SAME * all.max[1], qdot_same = SAME * all.max[3];
   if (!again) {
-    v_same += 10.0 * control.tolerance * pair->rin / natural_time();
+    v_same += pair->neighbor_drag ? INFINITY
+                                  : 10.0 * control.tolerance * pair->rin / natural_time();
     qdot_same += std::sqrt(10.0 * control.tolerance) * all.max[3];    // contact area ~ sqrt(overlap)
   }
   if (all.max[0] > v_same || all.max[2] > qdot_same || bubbles_last != atom->natoms) h_before = 0.0;
@@ -282,15 +284,17 @@ void FixFoamIntegrate::setup(int)
 
 void FixFoamIntegrate::check_ghosts()
 {
-  if (!gas) return;
-  for (int i = atom->nlocal; i < atom->nlocal + atom->nghost; i++) atom->radius[i] = -1.0;
+  if (!gas || ghosts_checked) return;
+  const int nlocal = atom->nlocal, nall = nlocal + atom->nghost;
+  for (int i = nlocal; i < nall; i++) atom->radius[i] = -1.0;
   comm->forward_comm();
   FoamTotals mine;
-  for (int i = atom->nlocal; i < atom->nlocal + atom->nghost; i++)
-    if (atom->radius[i] < 0.0) mine.sum[0] += 1.0;
-  if (reduce(mine).sum[0] > 0.0)
+  for (int i = nlocal; i < nall; i++) mine.sum[atom->radius[i] < 0.0 ? 0 : 1] += 1.0;
+  const FoamTotals all = reduce(mine);
+  if (all.sum[0] > 0.0)
     error->all(FLERR, "Fix foam/coarsen changes radii, which have to be communicated in every step: "
                "use atom_style sphere 1");
+  ghosts_checked = all.sum[1] > 0.0;    // else there were none to look at
 }
 
 void FixFoamIntegrate::take_population()
@@ -314,7 +318,7 @@ void FixFoamIntegrate::take_population()
 
 void FixFoamIntegrate::initial_integrate(int)
 {
-  const bool dump_foreseen = output->next_time_dump_any == update->ntimestep;
+  if (output->next_time_dump_any == update->ntimestep) dump_foreseen = update->ntimestep;
   bool refused = false;
   keep_start();
 
@@ -352,7 +356,7 @@ void FixFoamIntegrate::initial_integrate(int)
     refused = true;
     return_to_start();
   }
-  schedule_time_dumps(dump_foreseen);
+  schedule_time_dumps();
   if (gas && gas->has_dead() && output_due()) next_reneighbor = update->ntimestep;
 }
 
@@ -625,6 +629,8 @@ void FixFoamIntegrate::post_neighbor()
   if (domain->box_change) box_corners(corners_listed);
   list_is_new = true;
 
+  check_ghosts();
+
   // other fixes may just have put bubbles in or taken them out
 
   if (gas && gas->population.bubbles != atom->natoms) take_population();
@@ -709,10 +715,11 @@ void FixFoamIntegrate::pre_exchange()
 // Dumps by time are written at the first step that has reached their time.  LAMMPS asks for
 // per-bubble energies before a step is known; where it did not, the dump waits a step.
 
-void FixFoamIntegrate::schedule_time_dumps(bool foreseen)
+void FixFoamIntegrate::schedule_time_dumps()
 {
   if (!output->any_time_dumps) return;
   const bigint now = update->ntimestep;
+  const bool foreseen = dump_foreseen == now;
   const double after_next = update->atime + MIN(h, largest_step());
   const double slack = 1.0e-6 * update->dt;    // as in LAMMPS
 
@@ -726,9 +733,11 @@ void FixFoamIntegrate::schedule_time_dumps(bool foreseen)
 
       const double target = output->next_time_dump[d] - slack;
       bigint &next = output->next_dump[d];
-      if (update->atime >= target && foreseen)
+      if (update->atime >= target && foreseen) {
         next = now;
-      else if (update->atime >= target || after_next >= target)
+        modify->addstep_compute_all(now + 1);    // the next step may well be due again
+        dump_foreseen = now + 1;
+      } else if (update->atime >= target || after_next >= target)
         next = now + 1;
       else
         next = MAXBIGINT;    // looked at again in the next step

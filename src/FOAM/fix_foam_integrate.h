@@ -140,6 +140,8 @@ class FixFoamIntegrate : public Fix {
  private:
   int nscratch, nlisted;    // allocated lengths
   double **v_copy;
+  bigint dump_foreseen;    // step for which energies of bubbles were asked for in time
+  bool ghosts_checked;
   double corners_listed[8][3];
   bool list_is_new;    // built at the present state
   bool stopping;       // the run has reached its end
@@ -158,7 +160,7 @@ class FixFoamIntegrate : public Fix {
   void exchange_rates();
   void take_rates();
   void take_population();
-  void schedule_time_dumps(bool foreseen);
+  void schedule_time_dumps();
   void check_bubbles();
   void check_ghosts();
   void stop_run(const std::string &);

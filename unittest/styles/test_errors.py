@@ -90,7 +90,7 @@ def cases():
 
 def fails(lmp, text, ranks=1):
     """LAMMPS ends by itself, soon, with an error: give its line."""
-    result = lmp(text, files={"data": data_file([10, 10], [[3, 3], [4.5, 3], [7, 7]], [1, 1, 0.9])},
+    result = lmp(text, files={"data": data_file([10, 10], [[3, 3], [4.5, 3], [8, 7]], [1, 1, 0.9])},
                  ranks=ranks, check=False, timeout=20)
     assert result.returncode not in (0, 128 + signal.SIGSEGV, 128 + signal.SIGABRT)
     assert result.returncode > 0    # a negative one is a signal
