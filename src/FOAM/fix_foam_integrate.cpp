@@ -153,6 +153,11 @@ void FixFoamIntegrate::init()
         error->all(FLERR, "Fix {}: fix {} also changes radii, which are those of fix foam/coarsen",
                    style, ifix->style);
 
+  if (pair->neighbor_drag && !drift_removed && domain->xperiodic && domain->yperiodic &&
+      domain->zperiodic && comm->me == 0)
+    error->warning(FLERR, "Fix {}: with neighbor drag, nothing holds the foam as a whole in a "
+                   "periodic box: it drifts, faster with more steps; see keyword drift", style);
+
   // what is switched off is not gathered
 
   pair->gas_wanted = gas ? gas->wanted() : 0;
