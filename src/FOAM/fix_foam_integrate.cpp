@@ -81,6 +81,8 @@ FixFoamIntegrate::FixFoamIntegrate(LAMMPS *lmp, int narg, char **arg) :
     else
       error->all(FLERR, "Fix {}: unknown keyword {} (allowed are {})", style, keyword, keywords);
   }
+  if (drift_removed && control.scheme == Foam::Scheme::SOURCE)
+    error->all(FLERR, "Fix {}: drift remove goes with scheme standard, not with scheme source", style);
 
   time_integrate = 1;
   force_reneighbor = 1;

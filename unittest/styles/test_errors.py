@@ -133,6 +133,8 @@ MISFITS = {
     "compute without its pair style":
         (foam(pair_style="pair_style zero 3.0", pair_coeff="pair_coeff * *", gas="", step=""),
          BUBBLE, "pair_style durian/foam"),
+    "drift removed from the source's scheme":
+        (foam(step="fix step all foam/abm 1e-3 scheme source drift remove"), ABM, "drift", "scheme"),
     "respa": (foam("run_style respa 2 2 pair 1"), ABM, "respa", "verlet"),
     # radii would not reach the other ranks, nor the images of a bubble: wrong without a word
     "radii not communicated":
