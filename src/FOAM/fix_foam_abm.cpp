@@ -74,17 +74,20 @@ template <int D> FixFoamIntegrate::Trial FixFoamABM::attempt_in(double step)
 
 void FixFoamABM::keep_history()
 {
+  double *const *const v = atom->v;
   double *const v_before[3] = {columns[VX_BEFORE], columns[VY_BEFORE], columns[VZ_BEFORE]};
   double *const qdot = columns[QDOT], *const qdot_before = columns[QDOT_BEFORE];
-  const bool rates_known = !evaluates_again();
-  const Velocities velocity = velocities();
-  for (int i = 0; i < atom->nlocal; i++) {
-    for (int k = 0; k < dim; k++) {
-      v_before[k][i] = v_start[i][k];
-      if (rates_known) atom->v[i][k] = velocity(i, k);
-    }
+  const int nlocal = atom->nlocal;
+  for (int i = 0; i < nlocal; i++) {
+    for (int k = 0; k < dim; k++) v_before[k][i] = v_start[i][k];
     qdot_before[i] = qdot[i];
-    if (rates_known) qdot[i] = rate[i];
+  }
+  if (evaluates_again()) return;
+
+  const Velocities velocity = velocities();
+  for (int i = 0; i < nlocal; i++) {
+    for (int k = 0; k < dim; k++) v[i][k] = velocity(i, k);
+    qdot[i] = rate[i];
   }
 }
 

@@ -252,7 +252,7 @@ void FixFoamIntegrate::setup(int)
     for (int k = 0; k < dim; k++) {
       const double now = velocity(i, k);
       const double then = lagged ? lags[LASTX + k][i] : atom->v[i][k];
-      mine.max[0] = MAX(mine.max[0], std::fabs(drift_removed ? 0.0 : now - then));
+      mine.max[0] = MAX(mine.max[0], std::fabs(now - then));
       mine.max[1] = MAX(mine.max[1], std::fabs(now));
     }
     mine.max[2] = MAX(mine.max[2], std::fabs(rate[i] - columns[QDOT][i]));
@@ -556,10 +556,24 @@ void FixFoamIntegrate::exchange_rates()
   gas->rates(rate, variable == Variable::RADIUS);
 }
 
+// Averaging over neighbors leaves a common velocity as it is, so with neighbor drag the foam
+// as a whole may drift; the remedy goes on in the frame in which it is at rest.
+
 FixFoamIntegrate::Velocities FixFoamIntegrate::velocities() const
 {
-  return {atom->f, pair->neighbor_drag ? pair->vsum : nullptr, pair->contacts, atom->radius,
-          pair->mu0};
+  Velocities velocity{atom->f, pair->neighbor_drag ? pair->vsum : nullptr, pair->contacts,
+                      atom->radius, pair->mu0, {0.0, 0.0, 0.0}};
+  if (drift_removed) {
+    FoamTotals mine;
+    for (int i = 0; i < atom->nlocal; i++) {
+      for (int k = 0; k < dim; k++) mine.sum[k] += velocity(i, k);
+      if (atom->radius[i] > 0.0) mine.sum[3] += 1.0;
+    }
+    const FoamTotals all = reduce(mine);
+    for (int k = 0; k < dim; k++)
+      if (all.sum[3] > 0.0) velocity.drift[k] = all.sum[k] / all.sum[3];
+  }
+  return velocity;
 }
 
 // gas content of a bubble; of a candidate it may be negative, and then counts as such
@@ -589,29 +603,14 @@ void FixFoamIntegrate::take_rates()
   const Velocities velocity = velocities();
   const bool lagged = pair->neighbor_drag;
 
-  FoamTotals mine;
   for (int i = 0; i < nlocal; i++) {
     for (int k = 0; k < 3; k++) {
       if (lagged) lags[LAGX + k][i] = v[i][k];
       v[i][k] = k < dim ? velocity(i, k) : 0.0;
-      mine.sum[k] += v[i][k];
     }
-    if (atom->radius[i] > 0.0) mine.sum[3] += 1.0;
     qdot[i] = rate[i];
   }
   have_lags = lagged;
-
-  // Averaging over neighbors leaves a common velocity as it is, so with neighbor drag the
-  // foam as a whole may drift; the remedy goes on in the frame in which it is at rest.
-
-  if (drift_removed) {
-    const FoamTotals all = reduce(mine);
-    for (int k = 0; k < dim; k++) {
-      const double mean = all.sum[3] > 0.0 ? all.sum[k] / all.sum[3] : 0.0;
-      for (int i = 0; i < nlocal; i++)
-        if (atom->radius[i] > 0.0) v[i][k] -= mean;
-    }
-  }
 }
 
 /* ----------------------------------------------------------------------

@@ -118,14 +118,15 @@ class FixFoamIntegrate : public Fix {
     const double *const *f, *const *vsum;    // vsum is null with static drag
     const double *contacts, *radius;
     double mu0;
+    double drift[3];    // mean of all bubbles, to be taken off
     double operator()(int i, int k) const
     {
       if (!(radius[i] > 0.0)) return 0.0;
-      return Foam::drag_velocity(
-          f[i][k], mu0, vsum ? Foam::mean_of_neighbors(vsum[i][k], contacts[i]) : 0.0);
+      const double u = vsum ? Foam::mean_of_neighbors(vsum[i][k], contacts[i]) : 0.0;
+      return Foam::drag_velocity(f[i][k], mu0, u) - drift[k];
     }
   };
-  Velocities velocities() const;
+  Velocities velocities() const;    // on all ranks together
 
   template <int D> double radius_of(double q) const
   {

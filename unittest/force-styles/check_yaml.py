@@ -131,11 +131,8 @@ class Foam:
 
         def rates(lagged):
             v, Vdot = self.rates(lagged)
-            return v, Vdot / self.surface() if power == 1 else Vdot / ball
-
-        def settle(lagged):
-            v, qdot = rates(lagged)
-            return v - v.mean(axis=0) if remove else v, qdot
+            drift = v.mean(axis=0) if remove else 0
+            return v - drift, Vdot / self.surface() if power == 1 else Vdot / ball
 
         def go_to(x, new_q):
             nonlocal q
@@ -146,7 +143,7 @@ class Foam:
         for steps in runs:
             if not source or before == 0:        # LAMMPS computes the forces before each run
                 count += 1
-                v, qdot = settle(lag)
+                v, qdot = rates(lag)
             for _ in range(steps):
                 x0, q0, again = self.x, q, False
                 lag = v if source else (v + lag) / 2
@@ -188,7 +185,7 @@ class Foam:
                     past = past[0][live], past[1][live]
                 if not source:
                     count += 1
-                    v, qdot = settle(lag)
+                    v, qdot = rates(lag)
         self.v = v
         if not gas:
             return {"foam/abm": [t, before, accepted, refused, count, error]}
