@@ -14,7 +14,6 @@
 #include "pair_durian_foam.h"
 
 #include "atom.h"
-#include "comm.h"
 #include "domain.h"
 #include "error.h"
 #include "force.h"
@@ -31,17 +30,18 @@ static const char *const NAMES[] = {"contacts", "area", "free",    "vfilm",
 
 /* ---------------------------------------------------------------------- */
 
-ComputeFoamBubble::ComputeFoamBubble(LAMMPS *lmp, int narg, char **arg) :
-    Compute(lmp, narg, arg), pair(nullptr), gas(nullptr), nmax(0), vector(nullptr), array(nullptr)
+ComputeFoamBubble::ComputeFoamBubble(LAMMPS *lmp, int narg, char **arg)
+    : Compute(lmp, narg, arg), pair(nullptr), gas(nullptr), nmax(0), vector(nullptr), array(nullptr)
 {
   if (narg < 4)
     error->all(FLERR, "Compute foam/bubble needs at least one quantity: "
-               "contacts, area, free, vfilm, vliquid, rdot, espring or edurian");
+                      "contacts, area, free, vfilm, vliquid, rdot, espring or edurian");
   for (int iarg = 3; iarg < narg; iarg++) {
     int q = 0;
     while (q <= EDURIAN && strcmp(arg[iarg], NAMES[q]) != 0) q++;
     if (q > EDURIAN)
-      error->all(FLERR, "Compute foam/bubble: unknown quantity {} "
+      error->all(FLERR,
+                 "Compute foam/bubble: unknown quantity {} "
                  "(allowed are contacts, area, free, vfilm, vliquid, rdot, espring, edurian)",
                  arg[iarg]);
     quantities.push_back(static_cast<Quantity>(q));
@@ -100,20 +100,33 @@ void ComputeFoamBubble::compute_peratom()
     for (int c = 0; c < columns; c++) {
       double value = 0.0;
       if (counts) switch (quantities[c]) {
-        case CONTACTS: value = pair->contacts[i]; break;
-        case AREA: value = pair->area[i]; break;
-        case FREE:
-          value = Foam::free_area(flat ? Foam::surface<2>(R) : Foam::surface<3>(R), pair->area[i]);
-          break;
-        case VFILM: value = V.film; break;
-        case VLIQUID: value = V.liquid; break;
-        case RDOT:
-          value = flat ? Foam::radius_rate<2>(V.film + V.liquid, R)
-                       : Foam::radius_rate<3>(V.film + V.liquid, R);
-          break;
-        case ESPRING: value = pair->espring[i]; break;
-        case EDURIAN: value = pair->edurian[i]; break;
-      }
+          case CONTACTS:
+            value = pair->contacts[i];
+            break;
+          case AREA:
+            value = pair->area[i];
+            break;
+          case FREE:
+            value =
+                Foam::free_area(flat ? Foam::surface<2>(R) : Foam::surface<3>(R), pair->area[i]);
+            break;
+          case VFILM:
+            value = V.film;
+            break;
+          case VLIQUID:
+            value = V.liquid;
+            break;
+          case RDOT:
+            value = flat ? Foam::radius_rate<2>(V.film + V.liquid, R)
+                         : Foam::radius_rate<3>(V.film + V.liquid, R);
+            break;
+          case ESPRING:
+            value = pair->espring[i];
+            break;
+          case EDURIAN:
+            value = pair->edurian[i];
+            break;
+        }
       if (columns == 1)
         vector[i] = value;
       else

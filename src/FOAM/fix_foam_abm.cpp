@@ -15,7 +15,9 @@
 
 using namespace LAMMPS_NS;
 
-FixFoamABM::FixFoamABM(LAMMPS *lmp, int narg, char **arg) : FixFoamIntegrate(lmp, narg, arg) {}
+FixFoamABM::FixFoamABM(LAMMPS *lmp, int narg, char **arg) : FixFoamIntegrate(lmp, narg, arg)
+{
+}
 
 FixFoamIntegrate::Trial FixFoamABM::attempt(double step)
 {

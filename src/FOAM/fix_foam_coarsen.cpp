@@ -20,7 +20,7 @@
 #include "error.h"
 #include "force.h"
 #include "modify.h"
-#include "update.h"
+#include "neighbor.h"
 
 #include <cstring>
 
@@ -29,10 +29,10 @@ using namespace FixConst;
 
 /* ---------------------------------------------------------------------- */
 
-FixFoamCoarsen::FixFoamCoarsen(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), rho(0.0), pair(nullptr), reduce(world), law(Foam::LiquidLaw::AREA),
-    rmin(0.1), ain_given(0.0), nmin(0), time(0.0), removed_bubbles(0.0), removed_gas(0.0),
-    dead(false)
+FixFoamCoarsen::FixFoamCoarsen(LAMMPS *lmp, int narg, char **arg)
+    : Fix(lmp, narg, arg), rho(0.0), pair(nullptr), reduce(world), law(Foam::LiquidLaw::AREA),
+      rmin(0.1), ain_given(0.0), nmin(0), time(0.0), removed_bubbles(0.0), removed_gas(0.0),
+      dead(false)
 {
   if (narg < 5) error->all(FLERR, "Fix foam/coarsen needs K and kappa as first arguments");
   if (igroup != 0)
@@ -45,8 +45,10 @@ FixFoamCoarsen::FixFoamCoarsen(LAMMPS *lmp, int narg, char **arg) :
   for (int iarg = 5; iarg < narg; iarg += 2) {
     const std::string keyword = arg[iarg];
     if (iarg + 2 > narg)
-      error->all(FLERR, "Fix foam/coarsen: keyword {} needs a value (keywords are rmin, liquid, nmin, ain)",
-                 keyword);
+      error->all(
+          FLERR,
+          "Fix foam/coarsen: keyword {} needs a value (keywords are rmin, liquid, nmin, ain)",
+          keyword);
     const char *value = arg[iarg + 1];
     if (keyword == "rmin")
       rmin = input.number("rmin", value, FoamInput::AT_LEAST, 0.0);
@@ -62,7 +64,8 @@ FixFoamCoarsen::FixFoamCoarsen(LAMMPS *lmp, int narg, char **arg) :
       else
         error->all(FLERR, "Fix foam/coarsen: liquid must be area or lsw, not {}", value);
     } else
-      error->all(FLERR, "Fix foam/coarsen: unknown keyword {} (allowed are rmin, liquid, nmin, ain)",
+      error->all(FLERR,
+                 "Fix foam/coarsen: unknown keyword {} (allowed are rmin, liquid, nmin, ain)",
                  keyword);
   }
 
@@ -88,7 +91,8 @@ void FixFoamCoarsen::init()
   for (auto &ifix : modify->get_fix_list())
     if (dynamic_cast<FixFoamIntegrate *>(ifix)) integrated = true;
   if (!integrated)
-    error->all(FLERR, "Fix foam/coarsen needs a fix that integrates the foam, such as fix foam/abm");
+    error->all(FLERR,
+               "Fix foam/coarsen needs a fix that integrates the foam, such as fix foam/abm");
 }
 
 unsigned FixFoamCoarsen::wanted() const
@@ -197,9 +201,15 @@ std::string FixFoamCoarsen::end_reached() const
     return fmt::format("{:.0f} bubbles are left, nmin is {}", population.bubbles, nmin);
   double side = MIN(domain->xprd, domain->yprd);
   if (domain->dimension == 3) side = MIN(side, domain->zprd);
+
+  // ghosts of comm_style tiled reach no further than the box, and need 2 R_max + skin; in a step a
+  // bubble grows by half a skin at most
+
+  if (comm->style == Comm::TILED) side -= 2.0 * neighbor->skin;
   if (2.0 * population.radius_max >= side)
-    return fmt::format("the largest bubble, of diameter {:.8}, spans the box, whose shortest side is {:.8}",
-                       2.0 * population.radius_max, side);
+    return fmt::format(
+        "the largest bubble, of diameter {:.8}, spans the box, whose shortest side is {:.8}",
+        2.0 * population.radius_max, side);
   return {};
 }
 
@@ -249,19 +259,28 @@ void FixFoamCoarsen::take_out_dead()
 
 double FixFoamCoarsen::compute_vector(int n)
 {
-  if (!pair) return 0.0;
+  pair = dynamic_cast<PairDurianFoam *>(force->pair_match("durian/foam", 0));
+  if (!pair) return 0.0;    // replaced since the last run
   double box = domain->xprd * domain->yprd;
   if (domain->dimension == 3) box *= domain->zprd;
   const double N = population.bubbles;
   switch (n) {
-    case 0: return Foam::scaled_time(K, time, pair->rin);
-    case 1: return N;
-    case 2: return N > 0.0 ? population.radius_sum / (N * pair->rin) : 0.0;
-    case 3: return population.radius_max / pair->rin;
-    case 4: return Foam::gas_fraction(population.gas, box);
-    case 5: return rho;
-    case 6: return removed_bubbles;
-    default: return removed_gas;
+    case 0:
+      return Foam::scaled_time(K, time, pair->rin);
+    case 1:
+      return N;
+    case 2:
+      return N > 0.0 ? population.radius_sum / (N * pair->rin) : 0.0;
+    case 3:
+      return population.radius_max / pair->rin;
+    case 4:
+      return Foam::gas_fraction(population.gas, box);
+    case 5:
+      return rho;
+    case 6:
+      return removed_bubbles;
+    default:
+      return removed_gas;
   }
 }
 

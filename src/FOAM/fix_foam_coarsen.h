@@ -56,11 +56,11 @@ class FixFoamCoarsen : public Fix {
 
   // all of these use the sums over contacts that the pair style gathered last
 
-  Liquid liquid() const;    // over all ranks
+  virtual Liquid liquid() const;    // over all ranks
   Split exchange(int i, const Liquid &) const;
-  void rates(double *qdot, bool of_radius);    // of q = R^d, or of R, for each owned bubble
+  virtual void rates(double *qdot, bool of_radius);    // of q = R^d, or of R, for each owned bubble
 
-  double smallest_radius() const;   // below it a bubble is removed
+  double smallest_radius() const;    // below it a bubble is removed
   void accepted(double h, double removed, double gas_removed);
   std::string end_reached() const;    // why the run is over, or empty
 
@@ -77,9 +77,9 @@ class FixFoamCoarsen : public Fix {
   bigint nmin;
   double time;    // spent coarsening
   double removed_bubbles, removed_gas;
-  bool dead;     // there are removed bubbles, on any rank, that are not yet taken out
+  bool dead;    // there are removed bubbles, on any rank, that are not yet taken out
 
-  void take_out_dead();
+  virtual void take_out_dead();
   template <int D> double weight(int i) const;
   template <int D> Liquid liquid_in() const;
   template <int D> Split exchange_in(int i, const Liquid &) const;

@@ -37,20 +37,15 @@ using namespace FixConst;
    fix ID all STYLE tolerance keyword value ...
 ------------------------------------------------------------------------- */
 
-FixFoamIntegrate::FixFoamIntegrate(LAMMPS *lmp, int narg, char **arg) :
-    Fix(lmp, narg, arg), pair(nullptr), gas(nullptr), reduce(world), dim(domain->dimension),
-    variable(Variable::VOLUME), norm(Norm::MAX), dt_start(0.0), dt_limit(0.0),
-    drift_removed(false), time(0.0), h(0.0), h_before(0.0), accepted(0.0), rejected(0.0),
-    evaluations(0.0), error_last(0.0), bubbles_last(0.0),
-    columns(NCOLUMNS), lags(NLAGS), x_start(nullptr),
-    q_start(nullptr), radius_start(nullptr), v_start(nullptr), rate(nullptr), x_listed(nullptr), radius_listed(nullptr), nscratch(0), nlisted(0),
-    v_copy(nullptr), dump_foreseen(-1), ghosts_checked(false),
-    list_is_new(false), stopping(false), have_lags(false)
+FixFoamIntegrate::FixFoamIntegrate(LAMMPS *lmp, int narg, char **arg)
+    : Fix(lmp, narg, arg), reduce(world), dim(domain->dimension), columns(NCOLUMNS), lags(NLAGS)
 {
   if (narg < 4) error->all(FLERR, "Fix {} needs the tolerance as first argument", style);
   if (igroup != 0)
-    error->all(FLERR, "Fix {} needs group all; with static drag, fix setforce 0 0 0 holds bubbles "
-               "in place", style);
+    error->all(FLERR,
+               "Fix {} needs group all; with static drag, fix setforce 0 0 0 holds bubbles "
+               "in place",
+               style);
 
   const FoamInput input(lmp, error, fmt::format("Fix {}", style));
   control.tolerance = input.number("tolerance", arg[3], FoamInput::ABOVE, 0.0);
@@ -59,11 +54,13 @@ FixFoamIntegrate::FixFoamIntegrate(LAMMPS *lmp, int narg, char **arg) :
   for (int iarg = 4; iarg < narg; iarg += 2) {
     const std::string keyword = arg[iarg];
     if (iarg + 2 > narg)
-      error->all(FLERR, "Fix {}: keyword {} needs a value (keywords are {})", style, keyword, keywords);
+      error->all(FLERR, "Fix {}: keyword {} needs a value (keywords are {})", style, keyword,
+                 keywords);
     const std::string value = arg[iarg + 1];
     auto one_of = [&](const char *first, const char *second) {
       if (value != first && value != second)
-        error->all(FLERR, "Fix {}: {} must be {} or {}, not {}", style, keyword, first, second, value);
+        error->all(FLERR, "Fix {}: {} must be {} or {}, not {}", style, keyword, first, second,
+                   value);
       return value == second;
     };
     if (keyword == "dt0")
@@ -73,7 +70,7 @@ FixFoamIntegrate::FixFoamIntegrate(LAMMPS *lmp, int narg, char **arg) :
     else if (keyword == "variable")
       variable = one_of("volume", "radius") ? Variable::RADIUS : Variable::VOLUME;
     else if (keyword == "norm")
-      norm = one_of("max", "rms") ? Norm::RMS : Norm::MAX;
+      norm = one_of("max", "rms") ? Foam::Norm::RMS : Foam::Norm::MAX;
     else if (keyword == "scheme")
       control.scheme = one_of("standard", "source") ? Foam::Scheme::SOURCE : Foam::Scheme::STANDARD;
     else if (keyword == "drift")
@@ -82,7 +79,8 @@ FixFoamIntegrate::FixFoamIntegrate(LAMMPS *lmp, int narg, char **arg) :
       error->all(FLERR, "Fix {}: unknown keyword {} (allowed are {})", style, keyword, keywords);
   }
   if (drift_removed && control.scheme == Foam::Scheme::SOURCE)
-    error->all(FLERR, "Fix {}: drift remove goes with scheme standard, not with scheme source", style);
+    error->all(FLERR, "Fix {}: drift remove goes with scheme standard, not with scheme source",
+               style);
 
   time_integrate = 1;
   force_reneighbor = 1;
@@ -97,7 +95,7 @@ FixFoamIntegrate::FixFoamIntegrate(LAMMPS *lmp, int narg, char **arg) :
   restart_global = 1;
   restart_peratom = 1;
   create_attribute = 1;
-  maxexchange = columns.count_in_use() + lags.count_in_use();
+  maxexchange = columns.capacity() + lags.capacity();
   columns.use(atom->nmax);
   atom->add_callback(Atom::GROW);
   atom->add_callback(Atom::RESTART);
@@ -118,8 +116,10 @@ FixFoamIntegrate::~FixFoamIntegrate()
 
 int FixFoamIntegrate::setmask()
 {
+  // PRE_FORCE for the sake of setup_pre_force() alone
+
   return INITIAL_INTEGRATE | PRE_EXCHANGE | POST_NEIGHBOR | PRE_FORCE | FINAL_INTEGRATE |
-      END_OF_STEP;
+         END_OF_STEP;
 }
 
 void FixFoamIntegrate::init()
@@ -128,25 +128,37 @@ void FixFoamIntegrate::init()
   pair = dynamic_cast<PairDurianFoam *>(force->pair_match("durian/foam", 0));
   if (!pair) error->all(FLERR, "Fix {} needs pair_style durian/foam", style);
   if (force->bond || force->angle || force->dihedral || force->improper || force->kspace)
-    error->all(FLERR, "Fix {} evaluates pair forces and fixes only: "
-               "bonds, angles, dihedrals, impropers and kspace are not allowed", style);
+    error->all(FLERR,
+               "Fix {} evaluates pair forces and fixes only: "
+               "bonds, angles, dihedrals, impropers and kspace are not allowed",
+               style);
   if (utils::strmatch(update->integrate_style, "^respa"))
     error->all(FLERR, "Fix {} cannot be used with run_style respa: use verlet", style);
 
   if (!(neighbor->skin > 0.0))
-    error->all(FLERR, "Fix {} needs a neighbor skin > 0, in which bubbles may move and grow: "
-               "see the neighbor command", style);
+    error->all(FLERR,
+               "Fix {} needs a neighbor skin > 0, in which bubbles may move and grow: "
+               "see the neighbor command",
+               style);
 
   gas = nullptr;
   int integrators = 0;
   for (auto &ifix : modify->get_fix_list()) {
     if (auto *found = dynamic_cast<FixFoamCoarsen *>(ifix)) gas = found;
     if (ifix->time_integrate) integrators++;
+    if (utils::strmatch(ifix->style, "^langevin"))
+      error->all(FLERR,
+                 "Fix {} repeats steps until their error is small, which random forces of "
+                 "fix {} never let it be",
+                 style, ifix->style);
     if (comm->me == 0 && utils::strmatch(ifix->style, "^deform"))
-      error->warning(FLERR, "Fix {} changes the timestep, and fix deform takes the strain of styles "
+      error->warning(FLERR,
+                     "Fix {} changes the timestep, and fix deform takes the strain of styles "
                      "vel, erate, trate and wiggle for steps times the present timestep: "
-                     "use its style variable, with the time of fix {}", style, style);
+                     "use its style variable, with the time of fix {}",
+                     style, style);
   }
+  if (rin_kept > 0.0) pair->keep_means(rin_kept, ain_kept);
   if (integrators > 1)
     error->all(FLERR, "Fix {} must be the only fix that integrates in time", style);
   if (gas)
@@ -157,8 +169,10 @@ void FixFoamIntegrate::init()
 
   if (pair->neighbor_drag && !drift_removed && domain->xperiodic && domain->yperiodic &&
       domain->zperiodic && comm->me == 0)
-    error->warning(FLERR, "Fix {}: with neighbor drag, nothing holds the foam as a whole in a "
-                   "periodic box: it drifts, faster with more steps; see keyword drift", style);
+    error->warning(FLERR,
+                   "Fix {}: with neighbor drag, nothing holds the foam as a whole in a "
+                   "periodic box: it drifts, faster with more steps; see keyword drift",
+                   style);
 
   // what is switched off is not gathered
 
@@ -184,16 +198,17 @@ void FixFoamIntegrate::check_bubbles()
   }
   const double bad = reduce(mine).max[0];
   if (bad > 0.0)
-    error->all(FLERR, "Fix {}: the radius of bubble {:.0f} is zero, negative or not a number: "
-               "set its diameter or delete it", style, bad);
+    error->all(FLERR,
+               "Fix {}: the radius of bubble {:.0f} is zero, negative or not a number: "
+               "set its diameter or delete it",
+               style, bad);
 
   // q follows R where a command has changed R since the last run
 
   double *const q = columns[Q];
   for (int i = 0; i < atom->nlocal; i++) {
     const double R = atom->radius[i];
-    if ((dim == 2 ? radius_of<2>(q[i]) : radius_of<3>(q[i])) != R)
-      q[i] = dim == 2 ? q_of<2>(R) : q_of<3>(R);
+    if (radius_of(q[i]) != R) q[i] = q_of(R);
   }
 }
 
@@ -209,7 +224,7 @@ void FixFoamIntegrate::setup_pre_force(int)
 {
   if (!pair->neighbor_drag || !evaluates_again()) return;
   double *const *const v = atom->v;
-  if (have_lags)
+  if (have_lags != 0.0)
     for (int i = 0; i < atom->nlocal; i++) {
       bool same = true;
       for (int k = 0; k < 3; k++) same = same && v[i][k] == lags[LASTX + k][i];
@@ -244,10 +259,45 @@ void FixFoamIntegrate::setup(int)
   // Those of the source belong to the predicted state, within the tolerance of the present one;
   // its velocities with neighbor drag do not settle, and so tell nothing.
 
+  const FoamTotals change = change_of_rates();
+  constexpr double SAME = 1.0e-6;    // well above rounding, well below any change of interest
+  double v_same = SAME * change.max[1], qdot_same = SAME * change.max[3];
+  if (!evaluates_again()) {
+    const double tolerance = 10.0 * control.tolerance;
+    v_same += pair->neighbor_drag ? INFINITY : tolerance * pair->rin / natural_time();
+    qdot_same += std::sqrt(tolerance) * change.max[3];    // contact area ~ sqrt(overlap)
+  }
+  if (change.max[0] > v_same || change.max[2] > qdot_same || bubbles_last != atom->natoms)
+    h_before = 0.0;
+
+  if (evaluates_again() || h_before == 0.0)
+    take_rates();
+  else {
+    evaluations--;    // only looked at: the rates of the last run go on
+    if (gas) gas->rho = rho;
+  }
+  std::copy(f_so_far.begin(), f_so_far.end(), f);
+
+  rin_kept = pair->rin;
+  ain_kept = pair->ain;
+  if (h == 0.0) h = dt_start > 0.0 ? dt_start : update->dt;
+  update->update_time();
+  set_timestep(MIN(h, largest_step()));
+
+  take_population();
+  if (gas) {
+    const std::string reason = gas->end_reached();
+    if (!reason.empty()) stop_run(reason);
+  }
+}
+
+// largest change of a velocity, largest velocity; the same of qdot
+
+FoamTotals FixFoamIntegrate::change_of_rates()
+{
   FoamTotals mine;
   const Velocities velocity = velocities();
-  const bool again = evaluates_again();
-  const bool lagged = pair->neighbor_drag && have_lags && again;
+  const bool lagged = pair->neighbor_drag && have_lags != 0.0 && evaluates_again();
   for (int i = 0; i < atom->nlocal; i++) {
     for (int k = 0; k < dim; k++) {
       const double now = velocity(i, k);
@@ -258,33 +308,7 @@ void FixFoamIntegrate::setup(int)
     mine.max[2] = MAX(mine.max[2], std::fabs(rate[i] - columns[QDOT][i]));
     mine.max[3] = MAX(mine.max[3], std::fabs(rate[i]));
   }
-  const FoamTotals all = reduce(mine);
-  constexpr double SAME = 1.0e-6;    // well above rounding, well below any change of interest
-  double v_same = SAME * all.max[1], qdot_same = SAME * all.max[3];
-  if (!again) {
-    v_same += pair->neighbor_drag ? INFINITY
-                                  : 10.0 * control.tolerance * pair->rin / natural_time();
-    qdot_same += std::sqrt(10.0 * control.tolerance) * all.max[3];    // contact area ~ sqrt(overlap)
-  }
-  if (all.max[0] > v_same || all.max[2] > qdot_same || bubbles_last != atom->natoms) h_before = 0.0;
-
-  if (again || h_before == 0.0)
-    take_rates();
-  else {
-    evaluations--;    // only looked at: the rates of the last run go on
-    if (gas) gas->rho = rho;
-  }
-  std::copy(f_so_far.begin(), f_so_far.end(), f);
-
-  if (h == 0.0) h = dt_start > 0.0 ? dt_start : update->dt;
-  update->update_time();
-  update->dt = MIN(h, largest_step());
-
-  take_population();
-  if (gas) {
-    const std::string reason = gas->end_reached();
-    if (!reason.empty()) stop_run(reason);
-  }
+  return reduce(mine);
 }
 
 // fix foam/coarsen changes radii, and those of ghosts have to follow: atom_style sphere 1
@@ -299,7 +323,8 @@ void FixFoamIntegrate::check_ghosts()
   for (int i = nlocal; i < nall; i++) mine.sum[atom->radius[i] < 0.0 ? 0 : 1] += 1.0;
   const FoamTotals all = reduce(mine);
   if (all.sum[0] > 0.0)
-    error->all(FLERR, "Fix foam/coarsen changes radii, which have to be communicated in every step: "
+    error->all(FLERR,
+               "Fix foam/coarsen changes radii, which have to be communicated in every step: "
                "use atom_style sphere 1");
   ghosts_checked = all.sum[1] > 0.0;    // else there were none to look at
 }
@@ -332,12 +357,12 @@ void FixFoamIntegrate::initial_integrate(int)
   while (true) {
     const double step = MIN(h, largest_step());
     if (step < 1.0e-12 * natural_time() || time + step == time)
-      error->all(FLERR, "Fix {}: the step fell to {} at step {}, t = {}, with error {} above the "
+      error->all(FLERR,
+                 "Fix {}: the step fell to {} at step {}, t = {}, with error {} above the "
                  "tolerance {}: look for bad forces, raise the tolerance or lower dt0",
                  style, step, update->ntimestep, time, error_last, control.tolerance);
 
-    const Trial trial = attempt(step);
-    dim == 2 ? judge<2>(trial) : judge<3>(trial);
+    judge(attempt(step));
 
     // forces beyond the neighbor list are not trusted: list the start anew, or step less far
 
@@ -411,7 +436,12 @@ void FixFoamIntegrate::return_to_start()
    its error, whether the list still holds, and the bubbles that it would leave
 ------------------------------------------------------------------------- */
 
-template <int D> void FixFoamIntegrate::judge(const Trial &trial)
+void FixFoamIntegrate::judge(const Trial &trial)
+{
+  dim == 2 ? judge_in<2>(trial) : judge_in<3>(trial);
+}
+
+template <int D> void FixFoamIntegrate::judge_in(const Trial &trial)
 {
   const double *const *const x = atom->x;
   const double *const radius = atom->radius;
@@ -437,7 +467,7 @@ template <int D> void FixFoamIntegrate::judge(const Trial &trial)
     mine.max[AHEAD] = MAX(mine.max[AHEAD], std::sqrt(square) + MAX(0.0, growth));
     if (!std::isfinite(square) || !std::isfinite(q[i])) mine.sum[BAD] += 1.0;
 
-    if (R < smallest || !(q[i] > 0.0)) {
+    if (Foam::vanished(R, q[i], smallest)) {
       mine.sum[REMOVED] += 1.0;
       mine.sum[GAS_REMOVED] += content<D>(q[i]);
     } else {
@@ -449,12 +479,9 @@ template <int D> void FixFoamIntegrate::judge(const Trial &trial)
   }
   totals = reduce(mine);
 
-  const int components = dim + (gas ? 1 : 0);
   const double bubbles = totals.sum[N] + totals.sum[REMOVED];
-  error_last = totals.max[ERROR];
-  if (norm == Norm::RMS)
-    error_last = bubbles > 0.0 ? std::sqrt(totals.sum[SQUARES] / (bubbles * components)) : 0.0;
-  error_last /= pair->rin;
+  error_last = Foam::step_error(norm, totals.max[ERROR], totals.sum[SQUARES],
+                                bubbles * (D + (gas ? 1 : 0)), pair->rin);
   if (totals.sum[BAD] > 0.0) error_last = INFINITY;
 
   // the candidate itself is within its error, in D components and the radius, of a listed state
@@ -468,26 +495,31 @@ void FixFoamIntegrate::accept(double step)
   if (gas) redistribute();    // lets bubbles grow a little: adds to AHEAD
 
   time += step;
-  h_before = step;
+  h_before = h_last = step;
   accepted++;
   list_is_new = false;
   if (totals.max[AHEAD] > list_margin()) next_reneighbor = update->ntimestep;
 
-  const bool changed = update->dt != step;
   update->atime += step;
   update->atimestep = update->ntimestep;
-  update->dt = step;
-  if (changed) {
-    update->dt_default = 0;
-    force->pair->reset_dt();
-    for (auto &ifix : modify->get_fix_list()) ifix->reset_dt();
-  }
+  set_timestep(step);
 
   if (gas) {
     gas->accepted(step, totals.sum[REMOVED], totals.sum[GAS_REMOVED]);
     const std::string reason = gas->end_reached();
     if (!reason.empty()) stop_run(reason);
   }
+}
+
+// as fix dt/reset does; time dumps see schedule_time_dumps()
+
+void FixFoamIntegrate::set_timestep(double step)
+{
+  if (update->dt == step) return;
+  update->dt = step;
+  update->dt_default = 0;
+  force->pair->reset_dt();
+  for (auto &ifix : modify->get_fix_list()) ifix->reset_dt();
 }
 
 // remove the smallest bubbles and share out their gas
@@ -497,24 +529,24 @@ void FixFoamIntegrate::redistribute()
   double scale = 1.0;
   if (totals.sum[REMOVED] > 0.0) {
     if (!(totals.sum[GAS] > 0.0))
-      error->all(FLERR, "Fix {}: no bubbles are left after step {}, t = {}: all {:.0f} fell below "
+      error->all(FLERR,
+                 "Fix {}: no bubbles are left after step {}, t = {}: all {:.0f} fell below "
                  "rmin at once; lower rmin or the tolerance, or end the run earlier with nmin",
                  style, update->ntimestep, time, totals.sum[REMOVED]);
-    const double factor =
-        Foam::redistribution_factor(totals.sum[GAS_REMOVED], totals.sum[GAS]);
-    scale = dim == 2 ? std::sqrt(factor) : std::cbrt(factor);
+    const double factor = Foam::redistribution_factor(totals.sum[GAS_REMOVED], totals.sum[GAS]);
+    scale = dim == 2 ? Foam::radius_of_power<2>(factor) : Foam::radius_of_power<3>(factor);
     const double q_factor = variable == Variable::RADIUS ? scale : factor;
     const double smallest = gas->smallest_radius();
     double *const q = columns[Q];
     double *const radius = atom->radius;
     for (int i = 0; i < atom->nlocal; i++) {
-      if (radius[i] < smallest || !(q[i] > 0.0)) {
+      if (Foam::vanished(radius[i], q[i], smallest)) {
         columns.clear(i);
         radius[i] = 0.0;
         for (int k = 0; k < 3; k++) atom->v[i][k] = 0.0;
       } else {
         q[i] *= q_factor;
-        radius[i] = dim == 2 ? radius_of<2>(q[i]) : radius_of<3>(q[i]);
+        radius[i] = radius_of(q[i]);
       }
     }
   }
@@ -561,8 +593,9 @@ void FixFoamIntegrate::exchange_rates()
 
 FixFoamIntegrate::Velocities FixFoamIntegrate::velocities() const
 {
-  Velocities velocity{atom->f, pair->neighbor_drag ? pair->vsum : nullptr, pair->contacts,
-                      atom->radius, pair->mu0, {0.0, 0.0, 0.0}};
+  Velocities velocity{atom->f,        pair->neighbor_drag ? pair->vsum : nullptr,
+                      pair->contacts, atom->radius,
+                      pair->mu0,      {0.0, 0.0, 0.0}};
   if (drift_removed) {
     FoamTotals mine;
     for (int i = 0; i < atom->nlocal; i++) {
@@ -576,11 +609,13 @@ FixFoamIntegrate::Velocities FixFoamIntegrate::velocities() const
   return velocity;
 }
 
-// gas content of a bubble; of a candidate it may be negative, and then counts as such
+// Gas content of a bubble.  Of a candidate q may be negative: a q = R^d counts as such, so
+// that the sum stays what it is; a negative R is just none.
 
 template <int D> double FixFoamIntegrate::content(double q) const
 {
-  return Foam::CONTENT<D> * (variable == Variable::VOLUME ? q : Foam::power_of_radius<D>(q));
+  return Foam::CONTENT<D> *
+         (variable == Variable::VOLUME ? q : Foam::power_of_radius<D>(radius_of<D>(q)));
 }
 
 /* ----------------------------------------------------------------------
@@ -798,7 +833,7 @@ void FixFoamIntegrate::end_of_step()
 
 void FixFoamIntegrate::post_run()
 {
-  bubbles_last = atom->natoms;
+  bubbles_last = gas ? gas->population.bubbles : atom->natoms;    // without the dead
   if (stopping) timer->reset_timeout();
   if (lags.in_use())
     for (int i = 0; i < atom->nlocal; i++)
@@ -813,7 +848,7 @@ double FixFoamIntegrate::natural_time() const
 {
   const double sigma0 = pair->stiffest();
   if (sigma0 > 0.0) return pair->mu0 / sigma0;
-  return gas && gas->K > 0.0 ? pair->rin * pair->rin / gas->K : 1.0;
+  return gas && gas->K > 0.0 ? Foam::time_of_scaled(gas->K, 1.0, pair->rin) : 1.0;
 }
 
 // by default one unit of scaled time, or a thousand relaxation times at fixed radii
@@ -821,18 +856,25 @@ double FixFoamIntegrate::natural_time() const
 double FixFoamIntegrate::largest_step() const
 {
   if (dt_limit > 0.0) return dt_limit;
-  return gas && gas->K > 0.0 ? pair->rin * pair->rin / gas->K : 1000.0 * natural_time();
+  if (gas && gas->K > 0.0) return Foam::time_of_scaled(gas->K, 1.0, pair->rin);
+  return 1000.0 * natural_time();
 }
 
 double FixFoamIntegrate::compute_vector(int n)
 {
   switch (n) {
-    case 0: return time;
-    case 1: return h_before;
-    case 2: return accepted;
-    case 3: return rejected;
-    case 4: return evaluations;
-    default: return error_last;
+    case 0:
+      return time;
+    case 1:
+      return h_last;
+    case 2:
+      return accepted;
+    case 3:
+      return rejected;
+    case 4:
+      return evaluations;
+    default:
+      return error_last;
   }
 }
 
@@ -860,7 +902,7 @@ void FixFoamIntegrate::set_arrays(int i)
   lags.clear(i);
   if (!atom->radius_flag) return;
   const double R = atom->radius[i];
-  columns[Q][i] = dim == 2 ? q_of<2>(R) : q_of<3>(R);
+  columns[Q][i] = q_of(R);
 }
 
 int FixFoamIntegrate::pack_exchange(int i, double *buf)
@@ -891,40 +933,40 @@ void FixFoamIntegrate::unpack_restart(int i, int nth)
   for (int m = 0; m < nth; m++) extra += static_cast<int>(*extra);
   const int count = static_cast<int>(*extra++) - 1;
   extra += columns.unpack(i, extra);
-  if (count > columns.count()) {
+  if (count > columns.active()) {
     if (!lags.in_use()) lags.use(atom->nmax);
     lags.unpack(i, extra);
-    have_lags = true;
   }
 }
 
 int FixFoamIntegrate::size_restart(int)
 {
-  return 1 + columns.count() + lags.count();
+  return 1 + columns.active() + lags.active();
 }
 
 int FixFoamIntegrate::maxsize_restart()
 {
-  return 1 + columns.count_in_use() + lags.count_in_use();
+  return 1 + columns.capacity() + lags.capacity();
 }
 
 void FixFoamIntegrate::write_restart(FILE *fp)
 {
-  const double values[8] = {time,        h,          h_before,
-                            accepted,    rejected,   evaluations,
-                            error_last,  double(atom->natoms)};
-  if (comm->me == 0) {
-    const int size = sizeof(values);
-    fwrite(&size, sizeof(int), 1, fp);
-    fwrite(values, sizeof(double), 8, fp);
-  }
+  if (comm->me != 0) return;
+  const double values[] = {time,        h,          h_before,
+                           h_last,      accepted,   rejected,
+                           evaluations, error_last, double(atom->natoms),
+                           rin_kept,    ain_kept,   have_lags};
+  const int size = sizeof(values);
+  fwrite(&size, sizeof(int), 1, fp);
+  fwrite(values, size, 1, fp);
 }
 
 void FixFoamIntegrate::restart(char *buf)
 {
   const auto *values = (const double *) buf;
-  double *const all[] = {&time,     &h,           &h_before,   &accepted,
-                         &rejected, &evaluations, &error_last, &bubbles_last};
+  double *const all[] = {&time,         &h,        &h_before,    &h_last,
+                         &accepted,     &rejected, &evaluations, &error_last,
+                         &bubbles_last, &rin_kept, &ain_kept,    &have_lags};
   for (double *one : all) *one = *values++;
 }
 

@@ -58,27 +58,31 @@ class FixFoamIntegrate : public Fix {
   double memory_usage() override;
 
  protected:
-  class PairDurianFoam *pair;
-  class FixFoamCoarsen *gas;    // null: radii stay as they are
+  class PairDurianFoam *pair = nullptr;
+  class FixFoamCoarsen *gas = nullptr;    // null: radii stay as they are
   FoamReduce reduce;
   int dim;
 
   // settings
 
   enum class Variable { VOLUME, RADIUS };    // q = R^d or q = R
-  enum class Norm { MAX, RMS };
 
   Foam::StepControl control;
-  Variable variable;
-  Norm norm;
-  double dt_start, dt_limit;    // 0: the defaults
-  bool drift_removed;
+  Variable variable = Variable::VOLUME;
+  Foam::Norm norm = Foam::Norm::MAX;
+  double dt_start = 0.0, dt_limit = 0.0;    // 0: the defaults
+  bool drift_removed = false;
 
   // progress, kept in restarts
 
-  double time, h, h_before;    // h: next step to try; h_before: last accepted, 0 without history
-  double accepted, rejected, evaluations, error_last;
-  double bubbles_last;    // their number at the end of the last run
+  double time = 0.0;
+  double h = 0.0;           // step to try next; 0 before the first
+  double h_before = 0.0;    // step between f_{n-1} and f_n; 0 without history
+  double h_last = 0.0;      // last accepted step
+  double accepted = 0.0, rejected = 0.0, evaluations = 0.0, error_last = 0.0;
+  double bubbles_last = 0.0;                // their number at the end of the last run
+  double rin_kept = 0.0, ain_kept = 0.0;    // for a pair style that is replaced in mid-simulation
+  double have_lags = 0.0;                   // 1 if LAG and LAST are those of a previous run
 
   // per bubble, travelling with it
 
@@ -93,10 +97,10 @@ class FixFoamIntegrate : public Fix {
 
   // ---- what a scheme does
 
-  struct Trial {                     // of this rank's bubbles
-    double error_max = 0.0;          // lengths
-    double error_squares = 0.0;      // lengths squared, all components of all bubbles
-    double moved = 0.0;              // farthest that an evaluated state is from the listed one
+  struct Trial {                   // of this rank's bubbles
+    double error_max = 0.0;        // lengths
+    double error_squares = 0.0;    // lengths squared, all components of all bubbles
+    double moved = 0.0;            // farthest that an evaluated state is from the listed one
   };
   virtual Trial attempt(double step) = 0;    // leaves its candidate in x, Q and radius
   virtual void keep_history() = 0;           // accepted; v_start and QDOT still are f_n
@@ -104,17 +108,16 @@ class FixFoamIntegrate : public Fix {
 
   // ---- what a scheme uses
 
-  double **x_start;    // y_n, and the radii in it
-  double *q_start, *radius_start;
-  double **v_start;    // v of f_n: atom->v itself, unless neighbor drag needs that for l
-  double *rate;    // qdot as evaluated last
+  double **x_start = nullptr;    // y_n, and the radii in it
+  double *q_start = nullptr, *radius_start = nullptr;
+  double **v_start = nullptr;         // v of f_n: atom->v, unless neighbor drag needs that for l
+  double *rate = nullptr;             // qdot as evaluated last
+  double **x_listed = nullptr;        // where bubbles were when the neighbor list was built,
+  double *radius_listed = nullptr;    // and how large
 
-  double **x_listed;         // where bubbles were when the neighbor list was built,
-  double *radius_listed;     // and how large
+  virtual void evaluate();    // forces, drag (from l in atom->v), qdot of the state in x, radius
 
-  void evaluate();    // forces, drag (from l in atom->v) and qdot of the state in x, radius
-
-  struct Velocities {    // of the state evaluated last
+  struct Velocities {                        // of the state evaluated last
     const double *const *f, *const *vsum;    // vsum is null with static drag
     const double *contacts, *radius;
     double mu0;
@@ -126,7 +129,7 @@ class FixFoamIntegrate : public Fix {
       return Foam::drag_velocity(f[i][k], mu0, u) - drift[k];
     }
   };
-  Velocities velocities() const;    // on all ranks together
+  Velocities velocities() const;    // call on all ranks: drift remove sums over them
 
   template <int D> double radius_of(double q) const
   {
@@ -137,33 +140,39 @@ class FixFoamIntegrate : public Fix {
   {
     return variable == Variable::VOLUME ? Foam::power_of_radius<D>(R) : R;
   }
+  double radius_of(double q) const { return dim == 2 ? radius_of<2>(q) : radius_of<3>(q); }
+  double q_of(double R) const { return dim == 2 ? q_of<2>(R) : q_of<3>(R); }
 
- private:
-  int nscratch, nlisted;    // allocated lengths
-  double **v_copy;
-  bigint dump_foreseen;    // step for which energies of bubbles were asked for in time
-  bool ghosts_checked;
-  double corners_listed[8][3];
-  bool list_is_new;    // built at the present state
-  bool stopping;       // the run has reached its end
-  bool have_lags;
+  // ---- the loops over bubbles; a version for the device replaces these and keeps the rest
 
   FoamTotals totals;    // of a candidate, see judge()
   enum { N, RADII, GAS, REMOVED, GAS_REMOVED, SQUARES, BAD };
   enum { ERROR, MOVED, AHEAD, RADIUS };
 
-  template <int D> void judge(const Trial &);
+  virtual void judge(const Trial &);
+  virtual void redistribute();
+  virtual void keep_start();
+  virtual void return_to_start();
+  virtual void rebuild_lists();
+  virtual void exchange_rates();
+  virtual void take_rates();
+  virtual void take_population();
+  virtual void check_bubbles();
+  virtual void check_ghosts();
+  virtual FoamTotals change_of_rates();
+
+ private:
+  int nscratch = 0, nlisted = 0;    // allocated lengths
+  double **v_copy = nullptr;
+  double corners_listed[8][3];
+  bool list_is_new = false;       // built at the present state
+  bool ghosts_checked = false;    // their radii are communicated
+  bool stopping = false;          // the run has reached its end
+  bigint dump_foreseen = -1;      // step for which energies of bubbles were asked for in time
+
   void accept(double step);
-  void redistribute();
-  void keep_start();
-  void return_to_start();
-  void rebuild_lists();
-  void exchange_rates();
-  void take_rates();
-  void take_population();
+  void set_timestep(double);
   void schedule_time_dumps();
-  void check_bubbles();
-  void check_ghosts();
   void stop_run(const std::string &);
   bool output_due() const;
   double largest_step() const;
@@ -171,6 +180,7 @@ class FixFoamIntegrate : public Fix {
   double list_margin() const;
   void box_corners(double (*)[3]) const;
   template <int D> double content(double q) const;
+  template <int D> void judge_in(const Trial &);
 };
 
 }    // namespace LAMMPS_NS

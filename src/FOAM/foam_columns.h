@@ -29,8 +29,8 @@ class FoamColumns {
     grow(nmax);
   }
 
-  int count() const { return columns.size(); }
-  int count_in_use() const { return ncolumns; }
+  int active() const { return columns.size(); }
+  int capacity() const { return ncolumns; }
   double *operator[](int c) { return columns[c].data(); }
   const double *operator[](int c) const { return columns[c].data(); }
 
@@ -50,14 +50,17 @@ class FoamColumns {
   int pack(int i, double *buf) const
   {
     for (const auto &column : columns) *buf++ = column[i];
-    return count();
+    return active();
   }
   int unpack(int i, const double *buf)
   {
     for (auto &column : columns) column[i] = *buf++;
-    return count();
+    return active();
   }
-  double bytes() const { return in_use() ? sizeof(double) * count() * double(columns[0].size()) : 0; }
+  double bytes() const
+  {
+    return in_use() ? sizeof(double) * active() * double(columns[0].size()) : 0;
+  }
 
  private:
   int ncolumns;

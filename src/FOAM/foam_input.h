@@ -25,8 +25,8 @@ class FoamInput {
  public:
   enum Compare { ABOVE, AT_LEAST };
 
-  FoamInput(class LAMMPS *lmp, Error *error, const std::string &style) :
-      lmp(lmp), error(error), style(style)
+  FoamInput(class LAMMPS *lmp, Error *error, const std::string &style)
+      : lmp(lmp), error(error), style(style)
   {
   }
 

@@ -64,10 +64,10 @@ template <int D> FOAM_FUNCTION double surface(double R)
 
 // Square of the lens radius h of two overlapping bubbles at distance r.  With
 // a = (r^2 + R_j^2 - R_i^2) / (2 r), h^2 = R_j^2 - a^2 is the squared height of
-// the triangle with sides r, R_i, R_j; Heron's product loses no digits where
-// the bubbles just touch, nor where equal ones nearly coincide.  Once the lens plane has passed the centre of the
-// smaller bubble, r^2 <= |R_i^2 - R_j^2|, h would shrink again and turn
-// imaginary: there the smaller bubble shows its full cross-section.
+// the triangle with sides r, R_i, R_j; Heron's product loses no digits where the
+// bubbles just touch, nor where equal ones nearly coincide.  Once the lens plane
+// has passed the centre of the smaller bubble, r^2 <= |R_i^2 - R_j^2|, h would
+// shrink again and turn imaginary: there it shows its full cross-section.
 
 FOAM_FUNCTION double lens_radius_squared(double r, double Ri, double Rj)
 {
@@ -208,8 +208,14 @@ template <int D> FOAM_FUNCTION double radius_rate(double Vdot, double R)
   return Vdot / surface<D>(R);
 }
 
+// A bubble is removed when smaller than allowed, or used up.
 // Survivors of a removal take the removed gas in proportion to their own,
 // V -> V (1 + Vexcess / sum V): the factor of V, and of q = R^D
+
+FOAM_FUNCTION bool vanished(double R, double q, double smallest)
+{
+  return R < smallest || !(q > 0.0);
+}
 
 FOAM_FUNCTION double redistribution_factor(double Vexcess, double Vsurvivors)
 {
@@ -228,6 +234,11 @@ FOAM_FUNCTION double gas_fraction(double Vsum, double Vbox)
 FOAM_FUNCTION double scaled_time(double K, double t, double Rin)
 {
   return K * t / (Rin * Rin);
+}
+
+FOAM_FUNCTION double time_of_scaled(double K, double tau, double Rin)
+{
+  return tau * Rin * Rin / K;
 }
 
 }    // namespace Foam

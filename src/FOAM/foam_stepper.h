@@ -44,6 +44,18 @@ FOAM_FUNCTION double correct(double y, double now, double predicted, double h)
   return y + 0.5 * h * (predicted + now);
 }
 
+// Error of a step, in units of <R_in>: the largest distance of corrector and predictor of any
+// component (centre and radius) of any bubble, or the root mean square of all of them
+
+enum class Norm { MAX, RMS };
+
+FOAM_FUNCTION double step_error(Norm norm, double largest, double squares, double components,
+                                double Rin)
+{
+  if (norm == Norm::MAX) return largest / Rin;
+  return components > 0.0 ? std::sqrt(squares / components) / Rin : 0.0;
+}
+
 // Step control.  The distance of corrector and predictor is of order h^3 (h^2 after an
 // Euler start), so the step that just meets the tolerance is h (tol / error)^(1/3).
 

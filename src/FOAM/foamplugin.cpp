@@ -23,8 +23,8 @@ struct lammpsplugin {
   const char *info;
   const char *author;
   union {
-    void *(*v1)(void *);                   // pair styles
-    void *(*v2)(void *, int, char **);     // fixes and computes
+    void *(*v1)(void *);                  // pair styles
+    void *(*v2)(void *, int, char **);    // fixes and computes
   } creator;
   void *handle;
 };

@@ -34,9 +34,9 @@ static constexpr int MAX_SUMS = 8;
 
 /* ---------------------------------------------------------------------- */
 
-PairDurianFoam::PairDurianFoam(LAMMPS *lmp) :
-    Pair(lmp), contacts(nullptr), vsum(nullptr), area(nullptr), film(nullptr), espring(nullptr),
-    edurian(nullptr), sigma0(nullptr)
+PairDurianFoam::PairDurianFoam(LAMMPS *lmp)
+    : Pair(lmp), contacts(nullptr), vsum(nullptr), area(nullptr), film(nullptr), espring(nullptr),
+      edurian(nullptr), sigma0(nullptr)
 {
   single_enable = 1;
   restartinfo = 1;
@@ -88,7 +88,7 @@ void PairDurianFoam::compute(int eflag, int vflag)
 void PairDurianFoam::gather()
 {
   ev_unset();
-  dispatch(ALL_BUT_FORCE);
+  dispatch(TO_LOOK_AT);
 }
 
 void PairDurianFoam::dispatch(unsigned what)
@@ -108,15 +108,22 @@ void PairDurianFoam::dispatch(unsigned what)
   };
   auto choose = [&]<int D>() {
     switch (what) {
-      case FORCE: return run.template operator()<D, FORCE>();
-      case FORCE | DRAG: return run.template operator()<D, FORCE | DRAG>();
-      case FORCE | FILM: return run.template operator()<D, FORCE | FILM>();
-      case FORCE | FILM | DRAG: return run.template operator()<D, FORCE | FILM | DRAG>();
-      case FORCE | FILM | AREA: return run.template operator()<D, FORCE | FILM | AREA>();
+      case FORCE:
+        return run.template operator()<D, FORCE>();
+      case FORCE | DRAG:
+        return run.template operator()<D, FORCE | DRAG>();
+      case FORCE | FILM:
+        return run.template operator()<D, FORCE | FILM>();
+      case FORCE | FILM | DRAG:
+        return run.template operator()<D, FORCE | FILM | DRAG>();
+      case FORCE | FILM | AREA:
+        return run.template operator()<D, FORCE | FILM | AREA>();
       case FORCE | FILM | AREA | DRAG:
         return run.template operator()<D, FORCE | FILM | AREA | DRAG>();
-      case ALL_BUT_FORCE: return run.template operator()<D, ALL_BUT_FORCE>();
-      default: error->one(FLERR, "Pair style durian/foam: no loop gathers {}", what);
+      case TO_LOOK_AT:
+        return run.template operator()<D, TO_LOOK_AT>();
+      default:
+        error->one(FLERR, "Pair style durian/foam: no loop gathers {}", what);
     }
   };
   if (domain->dimension == 2)
@@ -181,13 +188,14 @@ template <int D, unsigned WHAT, bool TALLY, bool NEWTON> void PairDurianFoam::ev
                    eflag_either ? Foam::spring_energy(sigma * rin, overlap, Rsum) : 0.0, 0.0,
                    F_over_r, del[0], del[1], del[2]);
       }
-      if constexpr (WHAT & DRAG) {
+      if constexpr (WHAT & CONTACTS) {
         contacts_i += 1.0;
+        if (add_j) contacts[j] += 1.0;
+      }
+      if constexpr (WHAT & VSUM) {
         for (int k = 0; k < D; k++) vsum_i[k] += v[j][k];
-        if (add_j) {
-          contacts[j] += 1.0;
+        if (add_j)
           for (int k = 0; k < D; k++) vsum[j][k] += v[i][k];
-        }
       }
       if constexpr (WHAT & FILM) {
         const double A = Foam::contact_area<D>(r, Ri, Rj);
@@ -213,10 +221,9 @@ template <int D, unsigned WHAT, bool TALLY, bool NEWTON> void PairDurianFoam::ev
 
     if constexpr (WHAT & FORCE)
       for (int k = 0; k < D; k++) f[i][k] += fi[k];
-    if constexpr (WHAT & DRAG) {
-      contacts[i] += contacts_i;
+    if constexpr (WHAT & CONTACTS) contacts[i] += contacts_i;
+    if constexpr (WHAT & VSUM)
       for (int k = 0; k < D; k++) vsum[i][k] += vsum_i[k];
-    }
     if constexpr (WHAT & FILM) film[i] += film_i;
     if constexpr (WHAT & AREA) area[i] += area_i;
     if constexpr (WHAT & ENERGY) {
@@ -239,10 +246,8 @@ void PairDurianFoam::grow_sums(unsigned what)
     memory->destroy(espring);
     memory->destroy(edurian);
   }
-  if ((what & DRAG) && !contacts) {
-    memory->create(contacts, nmax, "durian/foam:contacts");
-    memory->create(vsum, nmax, 3, "durian/foam:vsum");
-  }
+  if ((what & CONTACTS) && !contacts) memory->create(contacts, nmax, "durian/foam:contacts");
+  if ((what & VSUM) && !vsum) memory->create(vsum, nmax, 3, "durian/foam:vsum");
   if ((what & FILM) && !film) memory->create(film, nmax, "durian/foam:film");
   if ((what & AREA) && !area) memory->create(area, nmax, "durian/foam:area");
   if ((what & ENERGY) && !espring) {
@@ -255,10 +260,8 @@ void PairDurianFoam::clear_sums(unsigned what, int n)
 {
   const size_t bytes = sizeof(double) * n;
   if (bytes == 0) return;
-  if (what & DRAG) {
-    memset(contacts, 0, bytes);
-    memset(&vsum[0][0], 0, 3 * bytes);
-  }
+  if (what & CONTACTS) memset(contacts, 0, bytes);
+  if (what & VSUM) memset(&vsum[0][0], 0, 3 * bytes);
   if (what & FILM) memset(film, 0, bytes);
   if (what & AREA) memset(area, 0, bytes);
   if (what & ENERGY) {
@@ -271,10 +274,9 @@ int PairDurianFoam::pack_reverse_comm(int n, int first, double *buf)
 {
   int m = 0;
   for (int i = first; i < first + n; i++) {
-    if (gathered & DRAG) {
-      buf[m++] = contacts[i];
+    if (gathered & CONTACTS) buf[m++] = contacts[i];
+    if (gathered & VSUM)
       for (int k = 0; k < 3; k++) buf[m++] = vsum[i][k];
-    }
     if (gathered & FILM) buf[m++] = film[i];
     if (gathered & AREA) buf[m++] = area[i];
     if (gathered & ENERGY) {
@@ -290,10 +292,9 @@ void PairDurianFoam::unpack_reverse_comm(int n, int *sendlist, double *buf)
   int m = 0;
   for (int ii = 0; ii < n; ii++) {
     const int i = sendlist[ii];
-    if (gathered & DRAG) {
-      contacts[i] += buf[m++];
+    if (gathered & CONTACTS) contacts[i] += buf[m++];
+    if (gathered & VSUM)
       for (int k = 0; k < 3; k++) vsum[i][k] += buf[m++];
-    }
     if (gathered & FILM) film[i] += buf[m++];
     if (gathered & AREA) area[i] += buf[m++];
     if (gathered & ENERGY) {
@@ -329,8 +330,10 @@ void PairDurianFoam::settings(int narg, char **arg)
   int iarg = 1;
   while (iarg < narg) {
     if (iarg + 2 > narg)
-      error->all(FLERR, "Pair style durian/foam: keyword {} needs a value (keywords are drag, rin, headroom)",
-                 arg[iarg]);
+      error->all(
+          FLERR,
+          "Pair style durian/foam: keyword {} needs a value (keywords are drag, rin, headroom)",
+          arg[iarg]);
     const std::string keyword = arg[iarg], value = arg[iarg + 1];
     if (keyword == "drag") {
       if (value == "static")
@@ -345,7 +348,8 @@ void PairDurianFoam::settings(int narg, char **arg)
     } else if (keyword == "headroom") {
       headroom = input.number("headroom", value, FoamInput::AT_LEAST, 1.0);
     } else
-      error->all(FLERR, "Pair style durian/foam: unknown keyword {} (allowed are drag, rin, headroom)",
+      error->all(FLERR,
+                 "Pair style durian/foam: unknown keyword {} (allowed are drag, rin, headroom)",
                  keyword);
     iarg += 2;
   }
@@ -354,7 +358,8 @@ void PairDurianFoam::settings(int narg, char **arg)
 void PairDurianFoam::coeff(int narg, char **arg)
 {
   if (narg != 3)
-    error->all(FLERR, "Pair style durian/foam: pair_coeff needs two types and sigma0, got {} arguments",
+    error->all(FLERR,
+               "Pair style durian/foam: pair_coeff needs two types and sigma0, got {} arguments",
                narg);
   if (!allocated) allocate();
 
@@ -385,7 +390,9 @@ void PairDurianFoam::init_style()
   if (!atom->tag_enable)
     error->all(FLERR, "Pair style durian/foam needs atom IDs: use atom_modify id yes");
   if (force->ftm2v != 1.0 || force->mvv2e != 1.0)
-    error->all(FLERR, "Pair style durian/foam needs consistent units: use units lj, si, cgs, micro or nano");
+    error->all(
+        FLERR,
+        "Pair style durian/foam needs consistent units: use units lj, si, cgs, micro or nano");
 
   // the drag asks for the neighbors' velocities; this is read by Comm::init() further on
 
@@ -407,7 +414,17 @@ void PairDurianFoam::init_style()
   if (!rin_fixed) rin = all[0] > 0.0 ? all[1] / all[0] : 0.0;
   if (!ain_fixed) ain = all[0] > 0.0 ? all[2] / all[0] : 0.0;
   MPI_Allreduce(&largest, &cutoff_radius, 1, MPI_DOUBLE, MPI_MAX, world);
+  largest = cutoff_radius;
   cutoff_radius *= headroom;
+
+  // tiled communication reaches no further than the box: there the head-room shrinks with it
+
+  if (comm->style == Comm::TILED) {
+    double side = INFINITY;
+    for (int k = 0; k < domain->dimension; k++)
+      if (domain->periodicity[k]) side = MIN(side, domain->prd[k]);
+    cutoff_radius = MAX(largest, MIN(cutoff_radius, 0.5 * (side - neighbor->skin)));
+  }
 
   neighbor->add_request(this, NeighConst::REQ_SIZE);
 }
@@ -419,11 +436,22 @@ double PairDurianFoam::init_one(int i, int j)
   return 2.0 * cutoff_radius;
 }
 
+// a new pair style in the middle of a simulation takes the means over, if not given its own
+
+void PairDurianFoam::keep_means(double rin_kept, double ain_kept)
+{
+  if (!rin_fixed) rin = rin_kept;
+  if (!ain_fixed) ain = ain_kept;
+  rin_fixed = ain_fixed = true;
+}
+
 void PairDurianFoam::setup()
 {
   if (!(rin > 0.0))
-    error->all(FLERR, "Pair style durian/foam: the mean radius <R_in> is {}, so there is no bubble "
-               "with a radius > 0: create bubbles, set their diameters or give keyword rin", rin);
+    error->all(FLERR,
+               "Pair style durian/foam: the mean radius <R_in> is {}, so there is no bubble "
+               "with a radius > 0: create bubbles, set their diameters or give keyword rin",
+               rin);
   rin_fixed = ain_fixed = true;
 }
 
@@ -520,8 +548,8 @@ void PairDurianFoam::read_restart(FILE *fp)
 
 void PairDurianFoam::write_restart_settings(FILE *fp)
 {
-  const double values[7] = {mu0, rin, double(rin_fixed), ain, double(ain_fixed),
-                            double(neighbor_drag), headroom};
+  const double values[7] = {
+      mu0, rin, double(rin_fixed), ain, double(ain_fixed), double(neighbor_drag), headroom};
   fwrite(values, sizeof(double), 7, fp);
 }
 
@@ -554,7 +582,8 @@ double PairDurianFoam::memory_usage()
 {
   double bytes = Pair::memory_usage();
   const double each = sizeof(double) * static_cast<double>(nmax);
-  if (contacts) bytes += 4.0 * each;
+  if (contacts) bytes += each;
+  if (vsum) bytes += 3.0 * each;
   if (film) bytes += each;
   if (area) bytes += each;
   if (espring) bytes += 2.0 * each;

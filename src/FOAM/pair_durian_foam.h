@@ -45,23 +45,26 @@ class PairDurianFoam : public Pair {
 
   // what one pass over the neighbor list gathers beside each other
   enum Gather : unsigned {
-    FORCE = 1,      // spring forces, energy and virial
-    DRAG = 2,       // contacts and the sum of neighbors' velocities
-    FILM = 4,       // sum of film exchange
-    AREA = 8,       // sum of contact areas
-    ENERGY = 16,    // each bubble's share of the energies
-    ALL_BUT_FORCE = DRAG | FILM | AREA | ENERGY
+    FORCE = 1,       // spring forces, energy and virial
+    CONTACTS = 2,    // number of contacts
+    VSUM = 4,        // sum of neighbors' velocities
+    FILM = 8,        // sum of film exchange
+    AREA = 16,       // sum of contact areas
+    ENERGY = 32,     // each bubble's share of the energies
+    DRAG = CONTACTS | VSUM,
+    TO_LOOK_AT = CONTACTS | FILM | AREA | ENERGY
   };
 
-  void gather();           // all sums over contacts of this state without forces, for computes
-  void refresh();          // cutoffs, ghosts and bins for bubbles that have grown
-  bool outgrown() const;   // has the largest bubble of all ranks grown beyond the cutoffs?
-  double stiffest() const; // largest sigma0
+  virtual void gather();              // TO_LOOK_AT of this state, for computes
+  void refresh();                     // cutoffs, ghosts and bins for bubbles that have grown
+  virtual bool outgrown() const;      // has the largest bubble of all ranks outgrown the cutoffs?
+  double stiffest() const;            // largest sigma0
+  void keep_means(double, double);    // <R_in>, <A_in> of a simulation that goes on
 
-  double mu0;              // drag coefficient
-  double rin, ain;         // <R_in>, <A_in>: means at the start of the first run
-  bool neighbor_drag;      // drag relative to neighbors' mean velocity or to a liquid at rest
-  unsigned gas_wanted;     // set by the integrator: FILM, AREA to gather in each compute()
+  double mu0;             // drag coefficient
+  double rin, ain;        // <R_in>, <A_in>: means at the start of the first run
+  bool neighbor_drag;     // drag relative to neighbors' mean velocity or to a liquid at rest
+  unsigned gas_wanted;    // set by the integrator: FILM, AREA to gather in each compute()
 
   // sums over the contacts of each bubble, as gathered last; ghosts' parts are added in
   double *contacts;             // number of contacts

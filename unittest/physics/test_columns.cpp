@@ -11,8 +11,8 @@ TEST(Columns, UnusedOnesTakeNothing)
   FoamColumns columns(3);
   double buf[3] = {1.0, 2.0, 3.0};
   EXPECT_FALSE(columns.in_use());
-  EXPECT_EQ(columns.count(), 0);
-  EXPECT_EQ(columns.count_in_use(), 3);
+  EXPECT_EQ(columns.active(), 0);
+  EXPECT_EQ(columns.capacity(), 3);
   EXPECT_EQ(columns.pack(0, buf), 0);
   EXPECT_EQ(columns.unpack(0, buf), 0);
   EXPECT_EQ(columns.bytes(), 0.0);

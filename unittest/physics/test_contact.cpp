@@ -224,16 +224,16 @@ TEST(Spring, ForceIsMinusDerivativeOfEnergy)
     const double step = std::ldexp(1.0, -10);
     const double slope = (spring_energy(1.5, Rsum - (r + step), Rsum) -
                           spring_energy(1.5, Rsum - (r - step), Rsum)) /
-        (2.0 * step);
+                         (2.0 * step);
     EXPECT_NEAR(spring_force(1.5, Rsum - r, Rsum), -slope, 1.0e-11);
   }
 }
 
 TEST(Spring, LimitsAreFinite)
 {
-  EXPECT_EQ(spring_force(1.0, 0.0, 2.0), 0.0);     // just touching
+  EXPECT_EQ(spring_force(1.0, 0.0, 2.0), 0.0);    // just touching
   EXPECT_EQ(spring_energy(1.0, 0.0, 2.0), 0.0);
-  EXPECT_EQ(spring_force(1.0, 2.0, 2.0), 1.0);     // coincident: sigma0 <R_in>
+  EXPECT_EQ(spring_force(1.0, 2.0, 2.0), 1.0);    // coincident: sigma0 <R_in>
   EXPECT_EQ(spring_energy(1.0, 2.0, 2.0), 1.0);
   EXPECT_DOUBLE_EQ(spring_force(1.0, 1.0e6 + 1.0, 1.0e6 + 1.0), 1.0);
 }

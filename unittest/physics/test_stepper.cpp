@@ -44,8 +44,12 @@ TEST(Predictor, LinearRateIsExactForAnyRatioOfSteps)
 {
   // y = t + t^2, f = 1 + 2 t
   Samples samples(2);
-  auto y = [](double t) { return t + t * t; };
-  auto f = [](double t) { return 1.0 + 2.0 * t; };
+  auto y = [](double t) {
+    return t + t * t;
+  };
+  auto f = [](double t) {
+    return 1.0 + 2.0 * t;
+  };
   for (int n = 0; n < 100; n++) {
     const double t = samples.uniform(0.0, 1.0), before = samples.uniform(0.1, 1.0);
     const double h = before * samples.decades(0.2, 1.9);    // ratios that step control makes
@@ -64,8 +68,8 @@ TEST(Predictor, ErrorConstant)
   for (const double w : {0.5, 1.0, 1.9}) {
     const double h = 0.25, back = -h / w;
     const Predictor p = predictor(Scheme::STANDARD, h, h / w);
-    EXPECT_NEAR(predict(0.0, 0.0, 3.0 * back * back, p) - h * h * h,
-                -h * h * h * (1.0 + 1.5 / w), 10.0 * EPS);
+    EXPECT_NEAR(predict(0.0, 0.0, 3.0 * back * back, p) - h * h * h, -h * h * h * (1.0 + 1.5 / w),
+                10.0 * EPS);
   }
 }
 
@@ -74,8 +78,7 @@ TEST(Corrector, LinearRateIsExact)
   // y = t + t^2 from t = 0.3
   const double t = 0.3, h = 0.7;
   const double end = t + h;
-  EXPECT_NEAR(correct(t + t * t, 1.0 + 2.0 * t, 1.0 + 2.0 * end, h), end + end * end,
-              4.0 * EPS);
+  EXPECT_NEAR(correct(t + t * t, 1.0 + 2.0 * t, 1.0 + 2.0 * end, h), end + end * end, 4.0 * EPS);
 }
 
 TEST(Stepper, LinearInvariantIsKept)

@@ -770,3 +770,24 @@ def test_time_grows_with_steps(lmp):
     # one evaluation to begin with, then two for each step tried and accepted, one if refused
     assert table["f_step[5]"] == pytest.approx(1 + 2 * table["f_step[3]"] + table["f_step[4]"],
                                                abs=8)
+
+
+@pytest.mark.parametrize("again", ["pair_style none\n", "pair_style hybrid/overlay "])
+def test_means_survive_another_pair_style(lmp, again):
+    """A new pair style object in mid-simulation goes on with <R_in> and <A_in> of its start."""
+    style = again + ("pair_style durian/foam 1.0\npair_coeff * * 1.0" if "none" in again else
+                     "durian/foam 1.0\npair_coeff * * durian/foam 1.0")
+    result = lmp(foam(f"run 200\n{style}\nrun 10", gas="0.1 0.1"), files=data())
+    before, after = result.thermo
+    for column in ("f_gas[1]", "f_gas[3]", "f_gas[4]"):
+        assert after[column][0] == pytest.approx(before[column][-1], rel=1e-12), column
+    assert before["f_gas[3]"][-1] > 1.01    # the mean radius has changed meanwhile
+
+
+def test_end_with_tiled_communication(lmp):
+    """Ghosts of comm_style tiled reach no further than the box: the run ends before they have to."""
+    body = "run 100000\nprint 'gone on'"
+    text = foam(body, gas="0.1 0.1", thermo=1000).replace("neighbor ", "comm_style tiled\nneighbor ", 1)
+    result = lmp(text, files=data(n=6), ranks=2)
+    assert "spans the box" in result.screen
+    assert "gone on" in result.screen
