@@ -559,7 +559,7 @@ void FixFoamIntegrate::redistribute()
    evaluation out of turn, in the order in which LAMMPS evaluates in turn
 ------------------------------------------------------------------------- */
 
-void FixFoamIntegrate::evaluate()
+void FixFoamIntegrate::compute_forces(int eflag, int vflag)
 {
   timer->stamp(Timer::MODIFY);
   comm->forward_comm();
@@ -567,13 +567,18 @@ void FixFoamIntegrate::evaluate()
 
   const int nall = atom->nlocal + (force->newton ? atom->nghost : 0);
   if (nall) memset(&atom->f[0][0], 0, 3 * sizeof(double) * nall);
-  if (modify->n_pre_force) modify->pre_force(0);
+  if (modify->n_pre_force) modify->pre_force(vflag);
   timer->stamp(Timer::MODIFY);
-  force->pair->compute(0, 0);
+  force->pair->compute(eflag, vflag);
   timer->stamp(Timer::PAIR);
   if (force->newton) comm->reverse_comm();
   timer->stamp(Timer::COMM);
-  if (modify->n_post_force_any) modify->post_force(0);
+  if (modify->n_post_force_any) modify->post_force(vflag);
+}
+
+void FixFoamIntegrate::evaluate()
+{
+  compute_forces(0, 0);
   evaluations++;
   exchange_rates();
 }
@@ -820,12 +825,7 @@ void FixFoamIntegrate::end_of_step()
 {
   const bigint now = update->ntimestep;
   if (!stopping || output->next_thermo == now) return;
-  const int nall = atom->nlocal + (force->newton ? atom->nghost : 0);
-  if (nall) memset(&atom->f[0][0], 0, 3 * sizeof(double) * nall);
-  if (modify->n_pre_force) modify->pre_force(VIRIAL_PAIR | VIRIAL_ATOM);
-  force->pair->compute(ENERGY_GLOBAL | ENERGY_ATOM, VIRIAL_PAIR | VIRIAL_ATOM);
-  if (force->newton) comm->reverse_comm();
-  if (modify->n_post_force_any) modify->post_force(VIRIAL_PAIR | VIRIAL_ATOM);
+  compute_forces(ENERGY_GLOBAL | ENERGY_ATOM, VIRIAL_PAIR | VIRIAL_ATOM);
   update->eflag_global = update->eflag_atom = now;
   update->vflag_global = update->vflag_atom = now;
   output->next_thermo = output->next = now;

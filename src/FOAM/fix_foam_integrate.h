@@ -115,7 +115,7 @@ class FixFoamIntegrate : public Fix {
   double **x_listed = nullptr;        // where bubbles were when the neighbor list was built,
   double *radius_listed = nullptr;    // and how large
 
-  virtual void evaluate();    // forces, drag (from l in atom->v), qdot of the state in x, radius
+  void evaluate();    // forces, drag (from l in atom->v), qdot of the state in x, radius
 
   struct Velocities {                        // of the state evaluated last
     const double *const *f, *const *vsum;    // vsum is null with static drag
@@ -149,6 +149,7 @@ class FixFoamIntegrate : public Fix {
   enum { N, RADII, GAS, REMOVED, GAS_REMOVED, SQUARES, BAD };
   enum { ERROR, MOVED, AHEAD, RADIUS };
 
+  virtual void compute_forces(int eflag, int vflag);
   virtual void judge(const Trial &);
   virtual void redistribute();
   virtual void keep_start();
