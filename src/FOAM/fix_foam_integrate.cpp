@@ -467,7 +467,9 @@ template <int D> void FixFoamIntegrate::judge_in(const Trial &trial)
     mine.max[AHEAD] = MAX(mine.max[AHEAD], std::sqrt(square) + MAX(0.0, growth));
     if (!std::isfinite(square) || !std::isfinite(q[i])) mine.sum[BAD] += 1.0;
 
-    if (Foam::vanished(R, q[i], smallest)) {
+    if (!gas)    // radii stay, and nobody asks for their sums
+      mine.sum[N] += 1.0;
+    else if (Foam::vanished(R, q[i], smallest)) {
       mine.sum[REMOVED] += 1.0;
       mine.sum[GAS_REMOVED] += content<D>(q[i]);
     } else {
