@@ -15,7 +15,8 @@ if(LAMMPS_SOURCE_DIR)
     message(FATAL_ERROR "LAMMPS_BUILD_DIR (now '${LAMMPS_BUILD_DIR}') must be the directory in "
       "which LAMMPS was configured with CMake: it tells how integers and MPI were set up")
   endif()
-  load_cache(${LAMMPS_BUILD_DIR} READ_WITH_PREFIX LMP_ BUILD_MPI LAMMPS_SIZES MPI_CXX_COMPILER)
+  load_cache(${LAMMPS_BUILD_DIR} READ_WITH_PREFIX LMP_ BUILD_MPI LAMMPS_SIZES MPI_CXX_COMPILER
+    PKG_KOKKOS KOKKOS_PREC KOKKOS_LAYOUT Kokkos_DIR CMAKE_CXX_COMPILER)
   target_include_directories(foam_lammps SYSTEM INTERFACE ${LAMMPS_SOURCE_DIR})
   string(TOUPPER "${LMP_LAMMPS_SIZES}" sizes)
   target_compile_definitions(foam_lammps INTERFACE LAMMPS_${sizes})
