@@ -38,17 +38,20 @@ ComputeFoamBubble::ComputeFoamBubble(LAMMPS *lmp, int narg, char **arg)
                       "contacts, area, free, vfilm, vliquid, rdot, espring or edurian");
   for (int iarg = 3; iarg < narg; iarg++) {
     int q = 0;
-    while (q <= EDURIAN && strcmp(arg[iarg], NAMES[q]) != 0) q++;
-    if (q > EDURIAN)
+    constexpr int LAST = static_cast<int>(Foam::Quantity::EDURIAN);
+    while (q <= LAST && strcmp(arg[iarg], NAMES[q]) != 0) q++;
+    if (q > LAST)
       error->all(FLERR,
                  "Compute foam/bubble: unknown quantity {} "
                  "(allowed are contacts, area, free, vfilm, vliquid, rdot, espring, edurian)",
                  arg[iarg]);
-    quantities.push_back(static_cast<Quantity>(q));
+    if (wanted.count == Foam::Quantities::MOST)
+      error->all(FLERR, "Compute foam/bubble: at most {} quantities", Foam::Quantities::MOST);
+    wanted.name[wanted.count++] = static_cast<Foam::Quantity>(q);
   }
 
   peratom_flag = 1;
-  size_peratom_cols = quantities.size() == 1 ? 0 : quantities.size();
+  size_peratom_cols = wanted.count == 1 ? 0 : wanted.count;
 }
 
 ComputeFoamBubble::~ComputeFoamBubble()
@@ -70,15 +73,14 @@ void ComputeFoamBubble::compute_peratom()
 {
   invoked_peratom = update->ntimestep;
 
-  const int columns = quantities.size();
   if (atom->nmax > nmax) {
     nmax = atom->nmax;
     memory->destroy(vector);
     memory->destroy(array);
-    if (columns == 1)
+    if (wanted.count == 1)
       memory->create(vector, nmax, "foam/bubble:vector");
     else
-      memory->create(array, nmax, columns, "foam/bubble:array");
+      memory->create(array, nmax, wanted.count, "foam/bubble:array");
     vector_atom = vector;
     array_atom = array;
   }
@@ -86,56 +88,11 @@ void ComputeFoamBubble::compute_peratom()
   // the sums of the pair style may be those of another state, or fewer: gather them all
 
   pair->gather();
-  const FixFoamCoarsen::Liquid liquid =
-      gas && gas->wanted() & PairDurianFoam::AREA ? gas->liquid() : FixFoamCoarsen::Liquid();
-
-  const double *const radius = atom->radius;
-  const bool flat = domain->dimension == 2;
-  for (int i = 0; i < atom->nlocal; i++) {
-    const double R = radius[i];
-    const bool counts = (atom->mask[i] & groupbit) && R > 0.0;
-    const FixFoamCoarsen::Split V =
-        gas ? gas->exchange(i, liquid) : FixFoamCoarsen::Split{0.0, 0.0};
-
-    for (int c = 0; c < columns; c++) {
-      double value = 0.0;
-      if (counts) switch (quantities[c]) {
-          case CONTACTS:
-            value = pair->contacts[i];
-            break;
-          case AREA:
-            value = pair->area[i];
-            break;
-          case FREE:
-            value =
-                Foam::free_area(flat ? Foam::surface<2>(R) : Foam::surface<3>(R), pair->area[i]);
-            break;
-          case VFILM:
-            value = V.film;
-            break;
-          case VLIQUID:
-            value = V.liquid;
-            break;
-          case RDOT:
-            value = flat ? Foam::radius_rate<2>(V.film + V.liquid, R)
-                         : Foam::radius_rate<3>(V.film + V.liquid, R);
-            break;
-          case ESPRING:
-            value = pair->espring[i];
-            break;
-          case EDURIAN:
-            value = pair->edurian[i];
-            break;
-        }
-      if (columns == 1)
-        vector[i] = value;
-      else
-        array[i][c] = value;
-    }
-  }
+  FoamHost here(lmp);
+  look(here, Foam::Values<int>{atom->mask}, wanted.count == 1 ? vector : array[0]);
 }
 
 double ComputeFoamBubble::memory_usage()
 {
-  return sizeof(double) * double(nmax) * quantities.size();
+  return sizeof(double) * double(nmax) * wanted.count;
 }

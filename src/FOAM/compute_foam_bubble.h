@@ -17,8 +17,11 @@ ComputeStyle(foam/bubble,ComputeFoamBubble);
 #define LMP_COMPUTE_FOAM_BUBBLE_H
 
 #include "compute.h"
+#include "fix_foam_coarsen.h"
+#include "foam_host.h"
 
-#include <vector>
+#include "atom.h"
+#include "domain.h"
 
 namespace LAMMPS_NS {
 
@@ -32,14 +35,31 @@ class ComputeFoamBubble : public Compute {
   void compute_peratom() override;
   double memory_usage() override;
 
- private:
-  enum Quantity { CONTACTS, AREA, FREE, VFILM, VLIQUID, RDOT, ESPRING, EDURIAN };
-  std::vector<Quantity> quantities;
-  class PairDurianFoam *pair;
-  class FixFoamCoarsen *gas;    // null: no gas is exchanged
+ protected:
+  Foam::Quantities wanted;
+  PairDurianFoam *pair;
+  FixFoamCoarsen *gas;    // null: no gas is exchanged
   int nmax;
   double *vector;
   double **array;
+
+  // fills out[nlocal][wanted.count] from what the pair style has gathered
+
+  template <class Space, class Masks> void look(Space &here, const Masks &mask, double *out)
+  {
+    domain->dimension == 2 ? look_in<2>(here, mask, out) : look_in<3>(here, mask, out);
+  }
+
+ private:
+  template <int D, class Space, class Masks>
+  void look_in(Space &here, const Masks &mask, double *out)
+  {
+    using B = typename Space::Bubbles;
+    const auto gas_law = gas ? gas->exchange<D>(here, atom->nlocal) : Foam::Exchange<D>();
+    const Foam::LookAt<D, B, Masks> body{
+        here.bubbles(), mask, groupbit, out, wanted, gas_law, pair->contact_sums(here)};
+    here.for_each(atom->nlocal, body);
+  }
 };
 
 }    // namespace LAMMPS_NS

@@ -18,6 +18,8 @@ FixStyle(foam/abm,FixFoamABM);
 
 #include "fix_foam_integrate.h"
 
+#include "atom.h"
+
 namespace LAMMPS_NS {
 
 // Adams-Bashforth-Moulton predictor-corrector of order 2, see foam_stepper.h
@@ -27,12 +29,19 @@ class FixFoamABM : public FixFoamIntegrate {
   FixFoamABM(class LAMMPS *, int, char **);
 
  protected:
-  Trial attempt(double) override;
-  void keep_history() override;
+  FoamTotals attempt(double, bool) override;
   bool evaluates_again() const override;
 
- private:
-  template <int D> Trial attempt_in(double);
+  template <int D, class Space> FoamTotals attempt_in(Space &here, double step, bool first)
+  {
+    using B = typename Space::Bubbles;
+    const int nlocal = atom->nlocal;
+    const Foam::Predictor p = Foam::predictor(control.scheme, step, h_before);
+    here.for_each(nlocal, Foam::Predict<D, B>{state(here), p, first});
+    evaluate();
+    const auto s = state(here);
+    return here.totals(nlocal, Foam::Correct<D, B>{s, rates<D>(here), judge_of<D>(s), step});
+  }
 };
 
 }    // namespace LAMMPS_NS

@@ -12,7 +12,6 @@
 #include "fix_foam_integrate.h"
 #include "foam_input.h"
 #include "lammps_compat.h"
-#include "pair_durian_foam.h"
 
 #include "atom.h"
 #include "comm.h"
@@ -30,9 +29,8 @@ using namespace FixConst;
 /* ---------------------------------------------------------------------- */
 
 FixFoamCoarsen::FixFoamCoarsen(LAMMPS *lmp, int narg, char **arg)
-    : Fix(lmp, narg, arg), rho(0.0), pair(nullptr), reduce(world), law(Foam::LiquidLaw::AREA),
-      rmin(0.1), ain_given(0.0), nmin(0), time(0.0), removed_bubbles(0.0), removed_gas(0.0),
-      dead(false)
+    : Fix(lmp, narg, arg), pair(nullptr), law(Foam::LiquidLaw::AREA), rmin(0.1), ain_given(0.0),
+      nmin(0), rho(0.0), time(0.0), removed_bubbles(0.0), removed_gas(0.0), dead(false)
 {
   if (narg < 5) error->all(FLERR, "Fix foam/coarsen needs K and kappa as first arguments");
   if (igroup != 0)
@@ -98,86 +96,9 @@ void FixFoamCoarsen::init()
 unsigned FixFoamCoarsen::wanted() const
 {
   unsigned what = 0;
-  if (K > 0.0) what |= PairDurianFoam::FILM;
-  if (K > 0.0 && kappa > 0.0) what |= PairDurianFoam::AREA;
+  if (K > 0.0) what |= Foam::FILM;
+  if (K > 0.0 && kappa > 0.0) what |= Foam::AREA;
   return what;
-}
-
-/* ----------------------------------------------------------------------
-   rates of gas content: Vdot_i = K sum_j A_ij (1/R_j - 1/R_i)
-                                + c w_i (1/rho - 1/R_i), see foam_physics.h
-------------------------------------------------------------------------- */
-
-template <int D> double FixFoamCoarsen::weight(int i) const
-{
-  const double R = atom->radius[i];
-  return Foam::liquid_weight(law, Foam::free_area(Foam::surface<D>(R), pair->area[i]), R);
-}
-
-template <int D> FixFoamCoarsen::Liquid FixFoamCoarsen::liquid_in() const
-{
-  const double *const radius = atom->radius;
-  FoamTotals mine;
-  for (int i = 0; i < atom->nlocal; i++) {
-    const double R = radius[i];
-    if (!(R > 0.0)) continue;
-    const double w = weight<D>(i);
-    mine.sum[0] += 1.0;
-    mine.sum[1] += Foam::surface<D>(R);
-    mine.sum[2] += w;
-    mine.sum[3] += w / R;
-  }
-  const FoamTotals all = reduce(mine);
-  const double Amean = all.sum[1] / all.sum[0];
-  const double ain = ain_given > 0.0 ? ain_given : pair->ain;
-  return {Foam::liquid_coefficient(law, kappa, K, pair->rin, ain, Amean),
-          Foam::inverse_critical_radius(all.sum[2], all.sum[3])};
-}
-
-template <int D> FixFoamCoarsen::Split FixFoamCoarsen::exchange_in(int i, const Liquid &l) const
-{
-  const double R = atom->radius[i];
-  if (!(R > 0.0)) return {0.0, 0.0};
-  Split split{K * pair->film[i], 0.0};
-  if (l.coefficient > 0.0)
-    split.liquid = Foam::liquid_exchange(l.coefficient, weight<D>(i), l.inverse_rho, R);
-  return split;
-}
-
-template <int D> void FixFoamCoarsen::rates_in(double *qdot, bool of_radius)
-{
-  const int nlocal = atom->nlocal;
-  const double *const radius = atom->radius;
-  const Liquid l = kappa > 0.0 ? liquid_in<D>() : Liquid();
-  rho = l.inverse_rho > 0.0 ? 1.0 / l.inverse_rho : 0.0;
-  for (int i = 0; i < nlocal; i++) {
-    const Split split = exchange_in<D>(i, l);
-    const double Vdot = split.film + split.liquid;
-    qdot[i] = Foam::power_rate<D>(Vdot);
-    if (of_radius) qdot[i] = radius[i] > 0.0 ? Foam::radius_rate<D>(Vdot, radius[i]) : 0.0;
-  }
-}
-
-// the same for either dimension
-
-FixFoamCoarsen::Liquid FixFoamCoarsen::liquid() const
-{
-  return domain->dimension == 2 ? liquid_in<2>() : liquid_in<3>();
-}
-
-FixFoamCoarsen::Split FixFoamCoarsen::exchange(int i, const Liquid &l) const
-{
-  return domain->dimension == 2 ? exchange_in<2>(i, l) : exchange_in<3>(i, l);
-}
-
-void FixFoamCoarsen::rates(double *qdot, bool of_radius)
-{
-  if (K == 0.0)
-    for (int i = 0; i < atom->nlocal; i++) qdot[i] = 0.0;
-  else if (domain->dimension == 2)
-    rates_in<2>(qdot, of_radius);
-  else
-    rates_in<3>(qdot, of_radius);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -249,6 +170,11 @@ void FixFoamCoarsen::take_out_dead()
       atom->nlocal--;
     }
   }
+  count_living();
+}
+
+void FixFoamCoarsen::count_living()
+{
   atom->nghost = 0;
   bigint nlocal = atom->nlocal;
   MPI_Allreduce(&nlocal, &atom->natoms, 1, MPI_LMP_BIGINT, MPI_SUM, world);
@@ -276,7 +202,7 @@ double FixFoamCoarsen::compute_vector(int n)
     case 4:
       return Foam::gas_fraction(population.gas, box);
     case 5:
-      return rho;
+      return critical_radius();
     case 6:
       return removed_bubbles;
     default:
@@ -286,7 +212,7 @@ double FixFoamCoarsen::compute_vector(int n)
 
 void FixFoamCoarsen::write_restart(FILE *fp)
 {
-  const double values[4] = {time, removed_bubbles, removed_gas, rho};
+  const double values[4] = {time, removed_bubbles, removed_gas, critical_radius()};
   if (comm->me == 0) {
     const int size = sizeof(values);
     fwrite(&size, sizeof(int), 1, fp);
@@ -300,5 +226,5 @@ void FixFoamCoarsen::restart(char *buf)
   time = values[0];
   removed_bubbles = values[1];
   removed_gas = values[2];
-  rho = values[3];
+  keep_critical_radius(values[3]);
 }

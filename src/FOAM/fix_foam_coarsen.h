@@ -17,8 +17,8 @@ FixStyle(foam/coarsen,FixFoamCoarsen);
 #define LMP_FIX_FOAM_COARSEN_H
 
 #include "fix.h"
-#include "foam_physics.h"
-#include "foam_reduce.h"
+#include "foam_loops.h"
+#include "pair_durian_foam.h"
 
 #include <string>
 
@@ -45,45 +45,58 @@ class FixFoamCoarsen : public Fix {
   };
   Population population;
 
-  struct Liquid {    // the state of the whole foam that enters the exchange through the liquid
-    double coefficient = 0.0, inverse_rho = 0.0;
-  };
-  struct Split {    // the two parts of Vdot of one bubble
-    double film, liquid;
-  };
-
   unsigned wanted() const;    // what the pair style has to gather for it
 
-  // all of these use the sums over contacts that the pair style gathered last
+  // the law for the sums over contacts that the pair style gathered last; on all ranks, as
+  // exchange through the liquid takes sums over all bubbles
 
-  virtual Liquid liquid() const;    // over all ranks
-  Split exchange(int i, const Liquid &) const;
-  virtual void rates(double *qdot, bool of_radius);    // of q = R^d, or of R, for each owned bubble
+  template <int D, class Space> Foam::Exchange<D> exchange(Space &here, int nlocal) const
+  {
+    Foam::Exchange<D> gas;
+    gas.K = K;
+    gas.kappa = kappa;
+    gas.law = law;
+    gas.Rin = pair->rin;
+    gas.Ain = ain_given > 0.0 ? ain_given : pair->ain;
+    gas.film = here.column(pair->film, 0);
+    gas.area = here.column(pair->area, 0);
+    using Body = Foam::LiquidSums<D, typename Space::Bubbles>;
+    if (gas.through_liquid()) gas.take(here.sums(nlocal, Body{here.bubbles(), gas}));
+    return gas;
+  }
+  template <int D> void took(const Foam::Exchange<D> &gas)    // the integrator, for its rates
+  {
+    rho_elsewhere = gas.sums.elsewhere;
+    rho = gas.liquid.inverse_rho > 0.0 ? 1.0 / gas.liquid.inverse_rho : 0.0;
+  }
+  virtual double critical_radius() { return rho; }    // of those rates; 0 without liquid exchange
+  void keep_critical_radius(double value)
+  {
+    rho_elsewhere = nullptr;
+    rho = value;
+  }
 
   double smallest_radius() const;    // below it a bubble is removed
   void accepted(double h, double removed, double gas_removed);
   std::string end_reached() const;    // why the run is over, or empty
 
   double K, kappa;
-  double rho;    // of the rates evaluated last; 0 without exchange through the liquid
   bool has_dead() const { return dead; }
 
  protected:
   class PairDurianFoam *pair;
-  FoamReduce reduce;
   Foam::LiquidLaw law;
   double rmin;         // in units of <R_in>
   double ain_given;    // <A_in> if the user gave it, else 0
   bigint nmin;
-  double time;    // spent coarsening
+  double rho;
+  const double *rho_elsewhere = nullptr;    // see Foam::Sums
+  double time;                              // spent coarsening
   double removed_bubbles, removed_gas;
   bool dead;    // there are removed bubbles, on any rank, that are not yet taken out
 
   virtual void take_out_dead();
-  template <int D> double weight(int i) const;
-  template <int D> Liquid liquid_in() const;
-  template <int D> Split exchange_in(int i, const Liquid &) const;
-  template <int D> void rates_in(double *qdot, bool of_radius);
+  virtual void count_living();
 };
 
 }    // namespace LAMMPS_NS

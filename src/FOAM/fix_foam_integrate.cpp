@@ -9,9 +9,7 @@
 
 #include "fix_foam_integrate.h"
 
-#include "fix_foam_coarsen.h"
 #include "foam_input.h"
-#include "pair_durian_foam.h"
 
 #include "atom.h"
 #include "comm.h"
@@ -38,7 +36,7 @@ using namespace FixConst;
 ------------------------------------------------------------------------- */
 
 FixFoamIntegrate::FixFoamIntegrate(LAMMPS *lmp, int narg, char **arg)
-    : Fix(lmp, narg, arg), reduce(world), dim(domain->dimension), columns(NCOLUMNS), lags(NLAGS)
+    : Fix(lmp, narg, arg), reduce(world), dim(domain->dimension)
 {
   if (narg < 4) error->all(FLERR, "Fix {} needs the tolerance as first argument", style);
   if (igroup != 0)
@@ -68,7 +66,7 @@ FixFoamIntegrate::FixFoamIntegrate(LAMMPS *lmp, int narg, char **arg)
     else if (keyword == "dtmax")
       dt_limit = input.number("dtmax", value, FoamInput::ABOVE, 0.0);
     else if (keyword == "variable")
-      variable = one_of("volume", "radius") ? Variable::RADIUS : Variable::VOLUME;
+      variable = one_of("volume", "radius") ? Foam::Variable::RADIUS : Foam::Variable::VOLUME;
     else if (keyword == "norm")
       norm = one_of("max", "rms") ? Foam::Norm::RMS : Foam::Norm::MAX;
     else if (keyword == "scheme")
@@ -105,21 +103,11 @@ FixFoamIntegrate::~FixFoamIntegrate()
 {
   atom->delete_callback(id, Atom::GROW);
   atom->delete_callback(id, Atom::RESTART);
-  memory->destroy(x_start);
-  memory->destroy(q_start);
-  memory->destroy(radius_start);
-  memory->destroy(v_copy);
-  memory->destroy(rate);
-  memory->destroy(x_listed);
-  memory->destroy(radius_listed);
 }
 
 int FixFoamIntegrate::setmask()
 {
-  // PRE_FORCE for the sake of setup_pre_force() alone
-
-  return INITIAL_INTEGRATE | PRE_EXCHANGE | POST_NEIGHBOR | PRE_FORCE | FINAL_INTEGRATE |
-         END_OF_STEP;
+  return INITIAL_INTEGRATE | PRE_EXCHANGE | POST_NEIGHBOR | FINAL_INTEGRATE | END_OF_STEP;
 }
 
 void FixFoamIntegrate::init()
@@ -180,6 +168,11 @@ void FixFoamIntegrate::init()
   if (pair->neighbor_drag) lags.use(atom->nmax);
 }
 
+bool FixFoamIntegrate::lagged() const
+{
+  return pair->neighbor_drag && evaluates_again();    // the source takes v itself for l
+}
+
 /* ----------------------------------------------------------------------
    before a run
 ------------------------------------------------------------------------- */
@@ -191,6 +184,7 @@ void FixFoamIntegrate::setup_pre_exchange()
 
 void FixFoamIntegrate::check_bubbles()
 {
+  host_reads();
   FoamTotals mine;
   for (int i = 0; i < atom->nlocal; i++) {
     const double R = atom->radius[i];
@@ -208,21 +202,26 @@ void FixFoamIntegrate::check_bubbles()
   double *const q = columns[Q];
   for (int i = 0; i < atom->nlocal; i++) {
     const double R = atom->radius[i];
-    if (radius_of(q[i]) != R) q[i] = q_of(R);
+    const double known =
+        dim == 2 ? Foam::radius_of<2>(variable, q[i]) : Foam::radius_of<3>(variable, q[i]);
+    if (known != R) q[i] = dim == 2 ? Foam::q_of<2>(variable, R) : Foam::q_of<3>(variable, R);
   }
 }
 
 void FixFoamIntegrate::setup_post_neighbor()
 {
   post_neighbor();
+  give_lags();
 }
 
 // The forces that LAMMPS computes before a run are those with which the last run ended, if
 // neighbor drag takes the same velocities as given.  Velocities that a command has set stay.
 
-void FixFoamIntegrate::setup_pre_force(int)
+void FixFoamIntegrate::give_lags()
 {
-  if (!pair->neighbor_drag || !evaluates_again()) return;
+  lags_given = true;
+  if (!lagged()) return;
+  host_reads();
   double *const *const v = atom->v;
   if (have_lags != 0.0)
     for (int i = 0; i < atom->nlocal; i++) {
@@ -231,6 +230,7 @@ void FixFoamIntegrate::setup_pre_force(int)
       if (same)
         for (int k = 0; k < 3; k++) v[i][k] = lags[LAGX + k][i];
     }
+  host_wrote();
   comm->forward_comm();
 }
 
@@ -238,28 +238,34 @@ void FixFoamIntegrate::setup(int)
 {
   stopping = false;
 
-  // Fixes that come after this one in the input have not added their forces yet, and will, to
-  // those in f: the rates need all of them now.
+  // This style knows when the list is outdated; LAMMPS' own look at it in each step is spared
 
-  const bool others = modify->n_post_force_any;
-  const size_t n = 3 * size_t(atom->nlocal + (force->newton ? atom->nghost : 0));
-  double *const f = n ? &atom->f[0][0] : nullptr;
-  std::vector<double> f_so_far;
-  const double rho = gas ? gas->rho : 0.0;
-  if (others) {
-    f_so_far.assign(f, f + n);
-    evaluate();
-  } else {
-    evaluations++;
-    exchange_rates();
+  if (delay_given < 0 && neighbor->dist_check) {
+    delay_given = neighbor->delay;
+    neighbor->delay = MAXSMALLINT / neighbor->every * neighbor->every;
   }
+
+  // Fixes that come after this one in the input have not added their forces yet, and will, to
+  // those in f: the rates need all of them now.  A run without set-up has not taken l from v.
+
+  const double rho = gas ? gas->critical_radius() : 0.0;
+  std::vector<double> f_so_far;
+  if (modify->n_post_force_any || !lags_given) {
+    host_reads();
+    const size_t n = 3 * size_t(atom->nlocal + (force->newton ? atom->nghost : 0));
+    if (n) f_so_far.assign(&atom->f[0][0], &atom->f[0][0] + n);
+    if (!lags_given) give_lags();
+    evaluate();
+  } else
+    evaluations++;
+  lags_given = false;
 
   // The history of steps is good for as long as the state is the one that it led to: if a
   // command has changed the foam, the rates are no longer those at the end of the last run.
   // Those of the source belong to the predicted state, within the tolerance of the present one;
   // its velocities with neighbor drag do not settle, and so tell nothing.
 
-  const FoamTotals change = change_of_rates();
+  const FoamTotals change = dim == 2 ? change_of_rates<2>() : change_of_rates<3>();
   constexpr double SAME = 1.0e-6;    // well above rounding, well below any change of interest
   double v_same = SAME * change.max[1], qdot_same = SAME * change.max[3];
   if (!evaluates_again()) {
@@ -270,13 +276,18 @@ void FixFoamIntegrate::setup(int)
   if (change.max[0] > v_same || change.max[2] > qdot_same || bubbles_last != atom->natoms)
     h_before = 0.0;
 
-  if (evaluates_again() || h_before == 0.0)
-    take_rates();
-  else {
+  if (evaluates_again() || h_before == 0.0) {
+    take_rates(false);
+    have_lags = lagged();
+  } else {
     evaluations--;    // only looked at: the rates of the last run go on
-    if (gas) gas->rho = rho;
+    if (gas) gas->keep_critical_radius(rho);
   }
-  std::copy(f_so_far.begin(), f_so_far.end(), f);
+  if (!f_so_far.empty()) {
+    host_reads();
+    std::copy(f_so_far.begin(), f_so_far.end(), &atom->f[0][0]);
+    host_wrote();
+  }
 
   rin_kept = pair->rin;
   ain_kept = pair->ain;
@@ -293,20 +304,23 @@ void FixFoamIntegrate::setup(int)
 
 // largest change of a velocity, largest velocity; the same of qdot
 
-FoamTotals FixFoamIntegrate::change_of_rates()
+template <int D> FoamTotals FixFoamIntegrate::change_of_rates()
 {
+  host_reads();
+  FoamHost here(lmp);
+  const auto f = rates<D>(here);
+  const bool last = lagged() && have_lags != 0.0;
   FoamTotals mine;
-  const Velocities velocity = velocities();
-  const bool lagged = pair->neighbor_drag && have_lags != 0.0 && evaluates_again();
   for (int i = 0; i < atom->nlocal; i++) {
-    for (int k = 0; k < dim; k++) {
-      const double now = velocity(i, k);
-      const double then = lagged ? lags[LASTX + k][i] : atom->v[i][k];
+    for (int k = 0; k < D; k++) {
+      const double now = f.velocity(i, k);
+      const double then = last ? lags[LASTX + k][i] : atom->v[i][k];
       mine.max[0] = MAX(mine.max[0], std::fabs(now - then));
       mine.max[1] = MAX(mine.max[1], std::fabs(now));
     }
-    mine.max[2] = MAX(mine.max[2], std::fabs(rate[i] - columns[QDOT][i]));
-    mine.max[3] = MAX(mine.max[3], std::fabs(rate[i]));
+    const double now = gas ? f.qdot(i) : 0.0;
+    mine.max[2] = MAX(mine.max[2], std::fabs(now - columns[QDOT][i]));
+    mine.max[3] = MAX(mine.max[3], std::fabs(now));
   }
   return reduce(mine);
 }
@@ -317,8 +331,11 @@ void FixFoamIntegrate::check_ghosts()
 {
   if (!gas || ghosts_checked) return;
   const int nlocal = atom->nlocal, nall = nlocal + atom->nghost;
+  host_reads();
   for (int i = nlocal; i < nall; i++) atom->radius[i] = -1.0;
+  host_wrote();
   comm->forward_comm();
+  host_reads();
   FoamTotals mine;
   for (int i = nlocal; i < nall; i++) mine.sum[atom->radius[i] < 0.0 ? 0 : 1] += 1.0;
   const FoamTotals all = reduce(mine);
@@ -332,16 +349,18 @@ void FixFoamIntegrate::check_ghosts()
 void FixFoamIntegrate::take_population()
 {
   if (!gas) return;
+  using namespace Foam;
+  host_reads();
   FoamTotals mine;
   const double *const q = columns[Q];
   for (int i = 0; i < atom->nlocal; i++) {
-    mine.sum[N] += 1.0;
+    mine.sum[BUBBLES] += 1.0;
     mine.sum[RADII] += atom->radius[i];
-    mine.sum[GAS] += dim == 2 ? content<2>(q[i]) : content<3>(q[i]);
-    mine.max[RADIUS] = MAX(mine.max[RADIUS], atom->radius[i]);
+    mine.sum[GAS] += dim == 2 ? gas_content<2>(variable, q[i]) : gas_content<3>(variable, q[i]);
+    mine.max[LARGEST] = MAX(mine.max[LARGEST], atom->radius[i]);
   }
   const FoamTotals all = reduce(mine);
-  gas->population = {all.sum[N], all.sum[RADII], all.sum[GAS], all.max[RADIUS]};
+  gas->population = {all.sum[BUBBLES], all.sum[RADII], all.sum[GAS], all.max[LARGEST]};
 }
 
 /* ----------------------------------------------------------------------
@@ -351,8 +370,7 @@ void FixFoamIntegrate::take_population()
 void FixFoamIntegrate::initial_integrate(int)
 {
   if (output->next_time_dump_any == update->ntimestep) dump_foreseen = update->ntimestep;
-  bool refused = false;
-  keep_start();
+  bool refused = false, first = true;
 
   while (true) {
     const double step = MIN(h, largest_step());
@@ -362,19 +380,20 @@ void FixFoamIntegrate::initial_integrate(int)
                  "tolerance {}: look for bad forces, raise the tolerance or lower dt0",
                  style, step, update->ntimestep, time, error_last, control.tolerance);
 
-    judge(attempt(step));
+    judge(attempt(step, first));
+    first = false;
 
     // forces beyond the neighbor list are not trusted: list the start anew, or step less far
 
-    if (totals.max[MOVED] > list_margin()) {
-      return_to_start();
+    if (totals.max[Foam::MOVED] > list_margin()) {
       if (list_is_new) {
         rejected++;
         refused = true;
         h = 0.5 * step;
       } else {
+        return_to_start();
         rebuild_lists();
-        keep_start();
+        first = true;
       }
       continue;
     }
@@ -386,128 +405,52 @@ void FixFoamIntegrate::initial_integrate(int)
     }
     rejected++;
     refused = true;
-    return_to_start();
   }
   schedule_time_dumps();
   if (gas && gas->has_dead() && output_due()) next_reneighbor = update->ntimestep;
 }
 
-void FixFoamIntegrate::keep_start()
+// what is to be known of a candidate, over all ranks at once
+
+void FixFoamIntegrate::judge(const FoamTotals &mine)
 {
-  if (atom->nmax > nscratch) {
-    nscratch = atom->nmax;
-    memory->grow(x_start, nscratch, 3, "foam:x_start");
-    memory->grow(q_start, nscratch, "foam:q_start");
-    memory->grow(radius_start, nscratch, "foam:radius_start");
-    memory->destroy(v_copy);
-  }
-  if (pair->neighbor_drag && !v_copy) memory->create(v_copy, nscratch, 3, "foam:v_copy");
-  const int nlocal = atom->nlocal;
-  v_start = atom->v;
-  if (nlocal == 0) return;
-  memcpy(&x_start[0][0], &atom->x[0][0], 3 * sizeof(double) * nlocal);
-
-  // the pair style finds l in atom->v, also that of ghosts; the source takes v itself for l
-
-  if (pair->neighbor_drag && evaluates_again()) {
-    memcpy(&v_copy[0][0], &atom->v[0][0], 3 * sizeof(double) * nlocal);
-    v_start = v_copy;
-    for (int i = 0; i < nlocal; i++)
-      for (int k = 0; k < dim; k++)
-        atom->v[i][k] = Foam::lagged_velocity(v_start[i][k], lags[LAGX + k][i]);
-  }
-  if (!gas) return;
-  memcpy(q_start, columns[Q], sizeof(double) * nlocal);
-  memcpy(radius_start, atom->radius, sizeof(double) * nlocal);
-}
-
-void FixFoamIntegrate::return_to_start()
-{
-  const int nlocal = atom->nlocal;
-  if (nlocal == 0) return;
-  memcpy(&atom->x[0][0], &x_start[0][0], 3 * sizeof(double) * nlocal);
-  if (!gas) return;
-  memcpy(columns[Q], q_start, sizeof(double) * nlocal);
-  memcpy(atom->radius, radius_start, sizeof(double) * nlocal);
-}
-
-/* ----------------------------------------------------------------------
-   everything that has to be known of a candidate, over all ranks at once:
-   its error, whether the list still holds, and the bubbles that it would leave
-------------------------------------------------------------------------- */
-
-void FixFoamIntegrate::judge(const Trial &trial)
-{
-  dim == 2 ? judge_in<2>(trial) : judge_in<3>(trial);
-}
-
-template <int D> void FixFoamIntegrate::judge_in(const Trial &trial)
-{
-  const double *const *const x = atom->x;
-  const double *const radius = atom->radius;
-  const double *const q = columns[Q];
-  const double smallest = gas ? gas->smallest_radius() : 0.0;
-
-  FoamTotals mine;
-  mine.sum[SQUARES] = trial.error_squares;
-  mine.max[ERROR] = trial.error_max;
-  mine.max[MOVED] = trial.moved;
-  for (int i = 0; i < atom->nlocal; i++) {
-    if (gas && !(radius_start[i] > 0.0)) continue;    // dead already
-    const double R = radius[i];
-
-    // as far from the listed state as the next step goes if it repeats this one
-
-    double square = 0.0;
-    for (int k = 0; k < D; k++) {
-      const double ahead = 2.0 * x[i][k] - x_start[i][k] - x_listed[i][k];
-      square += ahead * ahead;
-    }
-    const double growth = gas ? 2.0 * R - radius_start[i] - radius_listed[i] : 0.0;
-    mine.max[AHEAD] = MAX(mine.max[AHEAD], std::sqrt(square) + MAX(0.0, growth));
-    if (!std::isfinite(square) || !std::isfinite(q[i])) mine.sum[BAD] += 1.0;
-
-    if (!gas)    // radii stay, and nobody asks for their sums
-      mine.sum[N] += 1.0;
-    else if (Foam::vanished(R, q[i], smallest)) {
-      mine.sum[REMOVED] += 1.0;
-      mine.sum[GAS_REMOVED] += content<D>(q[i]);
-    } else {
-      mine.sum[N] += 1.0;
-      mine.sum[RADII] += R;
-      mine.sum[GAS] += content<D>(q[i]);
-      mine.max[RADIUS] = MAX(mine.max[RADIUS], R);
-    }
-  }
+  using namespace Foam;
   totals = reduce(mine);
-
-  const double bubbles = totals.sum[N] + totals.sum[REMOVED];
-  error_last = Foam::step_error(norm, totals.max[ERROR], totals.sum[SQUARES],
-                                bubbles * (D + (gas ? 1 : 0)), pair->rin);
+  const double bubbles = totals.sum[BUBBLES] + totals.sum[REMOVED];
+  error_last = step_error(norm, totals.max[ERROR], totals.sum[SQUARES],
+                          bubbles * (dim + (gas ? 1 : 0)), pair->rin);
   if (totals.sum[BAD] > 0.0) error_last = INFINITY;
 
-  // the candidate itself is within its error, in D components and the radius, of a listed state
+  // the candidate itself is within its error, in all components and the radius, of a listed state
 
-  totals.max[AHEAD] = MAX(totals.max[AHEAD], totals.max[MOVED] + (D + 1) * totals.max[ERROR]);
+  totals.max[AHEAD] = MAX(totals.max[AHEAD], totals.max[MOVED] + (dim + 1) * totals.max[ERROR]);
+}
+
+// The history waits for the next rates, in one loop with them, unless these are known already,
+// or something changes LAMMPS' v before they are.
+
+bool FixFoamIntegrate::history_at_accept() const
+{
+  return !evaluates_again() || lagged() || domain->deform_vremap;
 }
 
 void FixFoamIntegrate::accept(double step)
 {
-  keep_history();
-  if (gas) redistribute();    // lets bubbles grow a little: adds to AHEAD
+  if (history_at_accept()) keep_history();
+  if (gas) remove_small();    // lets bubbles grow a little: adds to AHEAD
 
   time += step;
   h_before = h_last = step;
   accepted++;
   list_is_new = false;
-  if (totals.max[AHEAD] > list_margin()) next_reneighbor = update->ntimestep;
+  if (totals.max[Foam::AHEAD] > list_margin()) next_reneighbor = update->ntimestep;
 
   update->atime += step;
   update->atimestep = update->ntimestep;
   set_timestep(step);
 
   if (gas) {
-    gas->accepted(step, totals.sum[REMOVED], totals.sum[GAS_REMOVED]);
+    gas->accepted(step, totals.sum[Foam::REMOVED], totals.sum[Foam::GAS_REMOVED]);
     const std::string reason = gas->end_reached();
     if (!reason.empty()) stop_run(reason);
   }
@@ -526,35 +469,63 @@ void FixFoamIntegrate::set_timestep(double step)
 
 // remove the smallest bubbles and share out their gas
 
-void FixFoamIntegrate::redistribute()
+void FixFoamIntegrate::remove_small()
 {
-  double scale = 1.0;
+  using namespace Foam;
+  double scale = 1.0;    // of radii
   if (totals.sum[REMOVED] > 0.0) {
     if (!(totals.sum[GAS] > 0.0))
       error->all(FLERR,
                  "Fix {}: no bubbles are left after step {}, t = {}: all {:.0f} fell below "
                  "rmin at once; lower rmin or the tolerance, or end the run earlier with nmin",
                  style, update->ntimestep, time, totals.sum[REMOVED]);
-    const double factor = Foam::redistribution_factor(totals.sum[GAS_REMOVED], totals.sum[GAS]);
-    scale = dim == 2 ? Foam::radius_of_power<2>(factor) : Foam::radius_of_power<3>(factor);
-    const double q_factor = variable == Variable::RADIUS ? scale : factor;
-    const double smallest = gas->smallest_radius();
-    double *const q = columns[Q];
-    double *const radius = atom->radius;
-    for (int i = 0; i < atom->nlocal; i++) {
-      if (Foam::vanished(radius[i], q[i], smallest)) {
-        columns.clear(i);
-        radius[i] = 0.0;
-        for (int k = 0; k < 3; k++) atom->v[i][k] = 0.0;
-      } else {
-        q[i] *= q_factor;
-        radius[i] = radius_of(q[i]);
-      }
-    }
+    const double factor = redistribution_factor(totals.sum[GAS_REMOVED], totals.sum[GAS]);
+    scale = dim == 2 ? radius_of_power<2>(factor) : radius_of_power<3>(factor);
+    redistribute(variable == Variable::RADIUS ? scale : factor);
   }
-  gas->population = {totals.sum[N], totals.sum[RADII] * scale,
-                     totals.sum[GAS] + totals.sum[GAS_REMOVED], totals.max[RADIUS] * scale};
-  totals.max[AHEAD] += totals.max[RADIUS] * (scale - 1.0);
+  gas->population = {totals.sum[BUBBLES], totals.sum[RADII] * scale,
+                     totals.sum[GAS] + totals.sum[GAS_REMOVED], totals.max[LARGEST] * scale};
+  totals.max[AHEAD] += totals.max[LARGEST] * (scale - 1.0);
+}
+
+/* ----------------------------------------------------------------------
+   the loops over bubbles on the host
+------------------------------------------------------------------------- */
+
+void FixFoamIntegrate::keep_history()
+{
+  FoamHost here(lmp);
+  keep_history_in(here);
+}
+
+void FixFoamIntegrate::take_rates(bool history)
+{
+  FoamHost here(lmp);
+  take_rates_in(here, history);
+}
+
+void FixFoamIntegrate::redistribute(double factor)
+{
+  FoamHost here(lmp);
+  redistribute_in(here, factor);
+}
+
+void FixFoamIntegrate::return_to_start()
+{
+  FoamHost here(lmp);
+  return_to_start_in(here);
+}
+
+void FixFoamIntegrate::take_listed()
+{
+  FoamHost here(lmp);
+  take_listed_in(here);
+}
+
+double FixFoamIntegrate::largest_radius()
+{
+  FoamHost here(lmp);
+  return largest_radius_in(here);
 }
 
 /* ----------------------------------------------------------------------
@@ -582,47 +553,6 @@ void FixFoamIntegrate::evaluate()
 {
   compute_forces(0, 0);
   evaluations++;
-  exchange_rates();
-}
-
-void FixFoamIntegrate::exchange_rates()
-{
-  const int nlocal = atom->nlocal;
-  if (!gas) {
-    for (int i = 0; i < nlocal; i++) rate[i] = 0.0;
-    return;
-  }
-  gas->rates(rate, variable == Variable::RADIUS);
-}
-
-// Averaging over neighbors leaves a common velocity as it is, so with neighbor drag the foam
-// as a whole may drift; the remedy goes on in the frame in which it is at rest.
-
-FixFoamIntegrate::Velocities FixFoamIntegrate::velocities() const
-{
-  Velocities velocity{atom->f,        pair->neighbor_drag ? pair->vsum : nullptr,
-                      pair->contacts, atom->radius,
-                      pair->mu0,      {0.0, 0.0, 0.0}};
-  if (drift_removed) {
-    FoamTotals mine;
-    for (int i = 0; i < atom->nlocal; i++) {
-      for (int k = 0; k < dim; k++) mine.sum[k] += velocity(i, k);
-      if (atom->radius[i] > 0.0) mine.sum[3] += 1.0;
-    }
-    const FoamTotals all = reduce(mine);
-    for (int k = 0; k < dim; k++)
-      if (all.sum[3] > 0.0) velocity.drift[k] = all.sum[k] / all.sum[3];
-  }
-  return velocity;
-}
-
-// Gas content of a bubble.  Of a candidate q may be negative: a q = R^d counts as such, so
-// that the sum stays what it is; a negative R is just none.
-
-template <int D> double FixFoamIntegrate::content(double q) const
-{
-  return Foam::CONTENT<D> *
-         (variable == Variable::VOLUME ? q : Foam::power_of_radius<D>(radius_of<D>(q)));
 }
 
 /* ----------------------------------------------------------------------
@@ -633,26 +563,8 @@ void FixFoamIntegrate::final_integrate()
 {
   if (!evaluates_again()) return;
   evaluations++;
-  exchange_rates();
-  take_rates();
-}
-
-void FixFoamIntegrate::take_rates()
-{
-  double *const *const v = atom->v;
-  double *const qdot = columns[QDOT];
-  const int nlocal = atom->nlocal;
-  const Velocities velocity = velocities();
-  const bool lagged = pair->neighbor_drag;
-
-  for (int i = 0; i < nlocal; i++) {
-    for (int k = 0; k < 3; k++) {
-      if (lagged) lags[LAGX + k][i] = v[i][k];
-      v[i][k] = k < dim ? velocity(i, k) : 0.0;
-    }
-    qdot[i] = rate[i];
-  }
-  have_lags = lagged;
+  take_rates(!history_at_accept());
+  have_lags = lagged();
 }
 
 /* ----------------------------------------------------------------------
@@ -663,17 +575,11 @@ void FixFoamIntegrate::take_rates()
 
 void FixFoamIntegrate::post_neighbor()
 {
-  if (atom->nmax > nlisted) {
-    nlisted = atom->nmax;
-    memory->grow(x_listed, nlisted, 3, "foam:x_listed");
-    memory->grow(radius_listed, nlisted, "foam:radius_listed");
-    memory->grow(rate, nlisted, "foam:rate");
-  }
-  const int nlocal = atom->nlocal;
-  if (nlocal) {
-    memcpy(&x_listed[0][0], &atom->x[0][0], 3 * sizeof(double) * nlocal);
-    memcpy(radius_listed, atom->radius, sizeof(double) * nlocal);
-  }
+  start.use(atom->nmax);
+  listed.use(atom->nmax);
+  if (lagged()) v_start.use(atom->nmax);
+  if (!evaluates_again()) next.use(atom->nmax);
+  take_listed();
   if (domain->box_change) box_corners(corners_listed);
   list_is_new = true;
 
@@ -721,8 +627,6 @@ void FixFoamIntegrate::box_corners(double (*corners)[3]) const
 void FixFoamIntegrate::rebuild_lists()
 {
   timer->stamp(Timer::MODIFY);
-  if (v_start != atom->v && atom->nlocal)    // f_n travels with the bubbles, l is made of it anew
-    memcpy(&atom->v[0][0], &v_start[0][0], 3 * sizeof(double) * atom->nlocal);
   modify->pre_exchange();
   if (domain->triclinic) domain->x2lamda(atom->nlocal);
   domain->pbc();
@@ -749,7 +653,10 @@ void FixFoamIntegrate::rebuild_lists()
 void FixFoamIntegrate::pre_exchange()
 {
   const bool restart_due = update->ntimestep == output->next_restart;
-  if (restart_due || pair->outgrown()) pair->refresh();
+  const double mine = largest_radius();
+  double largest;
+  MPI_Allreduce(&mine, &largest, 1, MPI_DOUBLE, MPI_MAX, world);
+  if (restart_due || pair->outgrown(largest)) pair->refresh();
   if (restart_due) {
     atom->setup();
     atom->nextsort = update->ntimestep;
@@ -837,6 +744,8 @@ void FixFoamIntegrate::post_run()
 {
   bubbles_last = gas ? gas->population.bubbles : atom->natoms;    // without the dead
   if (stopping) timer->reset_timeout();
+  if (delay_given >= 0) neighbor->delay = delay_given;
+  delay_given = -1;
   if (lags.in_use())
     for (int i = 0; i < atom->nlocal; i++)
       for (int k = 0; k < 3; k++) lags[LASTX + k][i] = atom->v[i][k];
@@ -904,7 +813,7 @@ void FixFoamIntegrate::set_arrays(int i)
   lags.clear(i);
   if (!atom->radius_flag) return;
   const double R = atom->radius[i];
-  columns[Q][i] = q_of(R);
+  columns[Q][i] = dim == 2 ? Foam::q_of<2>(variable, R) : Foam::q_of<3>(variable, R);
 }
 
 int FixFoamIntegrate::pack_exchange(int i, double *buf)
@@ -974,6 +883,6 @@ void FixFoamIntegrate::restart(char *buf)
 
 double FixFoamIntegrate::memory_usage()
 {
-  const double scratch = 5.0 * (nscratch + nlisted) + (v_copy ? 3.0 * nscratch : 0.0);
-  return columns.bytes() + lags.bytes() + sizeof(double) * scratch;
+  return columns.bytes() + lags.bytes() + start.bytes() + v_start.bytes() + listed.bytes() +
+         next.bytes();
 }

@@ -11,9 +11,8 @@
 #define LMP_FIX_FOAM_INTEGRATE_H
 
 #include "fix.h"
-#include "foam_columns.h"
-#include "foam_reduce.h"
-#include "foam_stepper.h"
+#include "fix_foam_coarsen.h"
+#include "foam_host.h"
 
 namespace LAMMPS_NS {
 
@@ -24,6 +23,10 @@ namespace LAMMPS_NS {
 // of turn, until one is accepted; LAMMPS then computes the forces of the new state, and
 // final_integrate() turns them into the rates that the next step starts from.  So thermo,
 // dumps and restarts see one consistent state.
+//
+// Loops over bubbles (their bodies: foam_loops.h) are virtual functions of a line: each calls a
+// template, named with _in, for the space in which this style runs.  A style for a device
+// overrides those and keeps the rest.
 
 class FixFoamIntegrate : public Fix {
  public:
@@ -34,7 +37,6 @@ class FixFoamIntegrate : public Fix {
   void init() override;
   void setup_pre_exchange() override;
   void setup_post_neighbor() override;
-  void setup_pre_force(int) override;
   void setup(int) override;
   void initial_integrate(int) override;
   void pre_exchange() override;
@@ -58,17 +60,15 @@ class FixFoamIntegrate : public Fix {
   double memory_usage() override;
 
  protected:
-  class PairDurianFoam *pair = nullptr;
-  class FixFoamCoarsen *gas = nullptr;    // null: radii stay as they are
+  PairDurianFoam *pair = nullptr;
+  FixFoamCoarsen *gas = nullptr;    // null: radii stay as they are
   FoamReduce reduce;
   int dim;
 
   // settings
 
-  enum class Variable { VOLUME, RADIUS };    // q = R^d or q = R
-
   Foam::StepControl control;
-  Variable variable = Variable::VOLUME;
+  Foam::Variable variable = Foam::Variable::VOLUME;
   Foam::Norm norm = Foam::Norm::MAX;
   double dt_start = 0.0, dt_limit = 0.0;    // 0: the defaults
   bool drift_removed = false;
@@ -87,90 +87,107 @@ class FixFoamIntegrate : public Fix {
   // per bubble, travelling with it
 
   enum { Q, QDOT, VX_BEFORE, VY_BEFORE, VZ_BEFORE, QDOT_BEFORE, NCOLUMNS };
-  FoamColumns columns;
+  FoamColumns columns{NCOLUMNS};
 
   // neighbor drag only: the velocities l that the evaluation of the present ones took as given,
   // see Foam::lagged_velocity(), and the velocities with which the last run ended
 
   enum { LAGX, LAGY, LAGZ, LASTX, LASTY, LASTZ, NLAGS };
-  FoamColumns lags;
+  FoamColumns lags{NLAGS};
+
+  // per bubble, of one step or one neighbor list
+
+  enum { XSTART, YSTART, ZSTART, QSTART, RSTART, NSTART };
+  FoamColumns start{NSTART};    // y_n, and the radii in it
+  FoamColumns v_start{3};       // v_n, where neighbor drag needs LAMMPS' v for l
+  enum { XLISTED, YLISTED, ZLISTED, RLISTED, NLISTED };
+  FoamColumns listed{NLISTED};
+  FoamColumns next{4};    // v, qdot of the predicted state, where they are to be f_{n+1}
 
   // ---- what a scheme does
 
-  struct Trial {                   // of this rank's bubbles
-    double error_max = 0.0;        // lengths
-    double error_squares = 0.0;    // lengths squared, all components of all bubbles
-    double moved = 0.0;            // farthest that an evaluated state is from the listed one
-  };
-  virtual Trial attempt(double step) = 0;    // leaves its candidate in x, Q and radius
-  virtual void keep_history() = 0;           // accepted; v_start and QDOT still are f_n
-  virtual bool evaluates_again() const { return true; }    // or has the next rates already
+  virtual FoamTotals attempt(double step, bool first) = 0;    // candidate, judged: see Foam::Judge
+  virtual bool evaluates_again() const { return true; }       // or has the next rates already
 
   // ---- what a scheme uses
 
-  double **x_start = nullptr;    // y_n, and the radii in it
-  double *q_start = nullptr, *radius_start = nullptr;
-  double **v_start = nullptr;         // v of f_n: atom->v, unless neighbor drag needs that for l
-  double *rate = nullptr;             // qdot as evaluated last
-  double **x_listed = nullptr;        // where bubbles were when the neighbor list was built,
-  double *radius_listed = nullptr;    // and how large
+  void evaluate();    // forces of the state in x and radius, with l in v
 
-  void evaluate();    // forces, drag (from l in atom->v), qdot of the state in x, radius
-
-  struct Velocities {                        // of the state evaluated last
-    const double *const *f, *const *vsum;    // vsum is null with static drag
-    const double *contacts, *radius;
-    double mu0;
-    double drift[3];    // mean of all bubbles, to be taken off
-    double operator()(int i, int k) const
-    {
-      if (!(radius[i] > 0.0)) return 0.0;
-      const double u = vsum ? Foam::mean_of_neighbors(vsum[i][k], contacts[i]) : 0.0;
-      return Foam::drag_velocity(f[i][k], mu0, u) - drift[k];
-    }
-  };
-  Velocities velocities() const;    // call on all ranks: drift remove sums over them
-
-  template <int D> double radius_of(double q) const
+  bool lagged() const;    // does the pair style take l from v
+  template <class Space> Foam::State<typename Space::Bubbles> state(Space &here)
   {
-    if (variable == Variable::VOLUME) return Foam::radius_of_power<D>(q);
-    return q < 0.0 ? 0.0 : q;
+    auto at = [&](FoamColumns &c, int k) {
+      return here.column(c, k);
+    };
+    auto v_at = [&](int k) {
+      return lagged() ? here.column(v_start, k) : nullptr;
+    };
+    return {here.bubbles(),
+            at(columns, Q),
+            at(columns, QDOT),
+            {at(columns, VX_BEFORE), at(columns, VY_BEFORE), at(columns, VZ_BEFORE)},
+            at(columns, QDOT_BEFORE),
+            {at(start, XSTART), at(start, YSTART), at(start, ZSTART)},
+            at(start, QSTART),
+            at(start, RSTART),
+            {v_at(0), v_at(1), v_at(2)},
+            {at(lags, LAGX), at(lags, LAGY), at(lags, LAGZ)},
+            {at(listed, XLISTED), at(listed, YLISTED), at(listed, ZLISTED)},
+            at(listed, RLISTED),
+            {at(next, 0), at(next, 1), at(next, 2)},
+            at(next, 3),
+            gas != nullptr,
+            variable};
   }
-  template <int D> double q_of(double R) const
+  template <int D, class Space> Foam::Rates<D, typename Space::Bubbles> rates(Space &here);
+
+  template <int D, class B> Foam::Judge<D, B> judge_of(const Foam::State<B> &s) const
   {
-    return variable == Variable::VOLUME ? Foam::power_of_radius<D>(R) : R;
+    return {s, gas ? gas->smallest_radius() : 0.0};
   }
-  double radius_of(double q) const { return dim == 2 ? radius_of<2>(q) : radius_of<3>(q); }
-  double q_of(double R) const { return dim == 2 ? q_of<2>(R) : q_of<3>(R); }
 
-  // ---- the loops over bubbles; a version for the device replaces these and keeps the rest
+  // ---- the loops over bubbles
 
-  FoamTotals totals;    // of a candidate, see judge()
-  enum { N, RADII, GAS, REMOVED, GAS_REMOVED, SQUARES, BAD };
-  enum { ERROR, MOVED, AHEAD, RADIUS };
-
-  virtual void compute_forces(int eflag, int vflag);
-  virtual void judge(const Trial &);
-  virtual void redistribute();
-  virtual void keep_start();
+  virtual void keep_history();
+  virtual void take_rates(bool history);
+  virtual void redistribute(double factor);
   virtual void return_to_start();
-  virtual void rebuild_lists();
-  virtual void exchange_rates();
-  virtual void take_rates();
-  virtual void take_population();
-  virtual void check_bubbles();
-  virtual void check_ghosts();
-  virtual FoamTotals change_of_rates();
+  virtual void take_listed();
+  virtual double largest_radius();    // on this rank
+  virtual void compute_forces(int eflag, int vflag);
+
+  // set-up works on the host: bubbles there are up to date after the first, and on the device
+  // again after the second
+
+  virtual void host_reads() {}
+  virtual void host_wrote() {}
+
+  template <class Space> void keep_history_in(Space &);
+  template <class Space> void take_rates_in(Space &, bool history);
+  template <class Space> void redistribute_in(Space &, double factor);
+  template <class Space> void return_to_start_in(Space &);
+  template <class Space> void take_listed_in(Space &);
+  template <class Space> double largest_radius_in(Space &);
 
  private:
-  int nscratch = 0, nlisted = 0;    // allocated lengths
-  double **v_copy = nullptr;
   double corners_listed[8][3];
   bool list_is_new = false;       // built at the present state
   bool ghosts_checked = false;    // their radii are communicated
+  bool lags_given = false;        // to LAMMPS' own evaluation before a run
   bool stopping = false;          // the run has reached its end
   bigint dump_foreseen = -1;      // step for which energies of bubbles were asked for in time
+  int delay_given = -1;           // neigh_modify delay, which does not count during a run
+  FoamTotals totals;              // of a candidate, over all ranks
 
+  void check_bubbles();
+  void check_ghosts();
+  void give_lags();
+  template <int D> FoamTotals change_of_rates();
+  void take_population();
+  void judge(const FoamTotals &mine);
+  void remove_small();
+  void rebuild_lists();
+  bool history_at_accept() const;
   void accept(double step);
   void set_timestep(double);
   void schedule_time_dumps();
@@ -180,9 +197,85 @@ class FixFoamIntegrate : public Fix {
   double natural_time() const;
   double list_margin() const;
   void box_corners(double (*)[3]) const;
-  template <int D> double content(double q) const;
-  template <int D> void judge_in(const Trial &);
 };
+
+// ---------------------------------------------------------------------- loops, for any space
+
+// Averaging over neighbors leaves a common velocity as it is, so with neighbor drag the foam
+// as a whole may drift; the remedy goes on in the frame in which it is at rest.
+
+template <int D, class Space>
+Foam::Rates<D, typename Space::Bubbles> FixFoamIntegrate::rates(Space &here)
+{
+  const Foam::ContactSums sums = pair->contact_sums(here);
+  Foam::Rates<D, typename Space::Bubbles> f{here.bubbles(), pair->mu0};
+  if (pair->neighbor_drag) {
+    f.contacts = sums.contacts;
+    for (int k = 0; k < 3; k++) f.vsum[k] = sums.vsum[k];
+  }
+  f.variable = variable;
+  if (gas) {
+    f.gas = gas->exchange<D>(here, atom->nlocal);
+    gas->took(f.gas);
+  }
+  if (drift_removed) {
+    f.drift = here.sums(atom->nlocal, Foam::DriftSums<D, typename Space::Bubbles>{f});
+    f.drift_removed = true;
+  }
+  return f;
+}
+
+template <class Space> void FixFoamIntegrate::keep_history_in(Space &here)
+{
+  using B = typename Space::Bubbles;
+  const auto s = state(here);
+  if (dim == 2)
+    here.for_each(atom->nlocal, Foam::KeepHistory<2, B>{s});
+  else
+    here.for_each(atom->nlocal, Foam::KeepHistory<3, B>{s});
+}
+
+template <class Space> void FixFoamIntegrate::take_rates_in(Space &here, bool history)
+{
+  using B = typename Space::Bubbles;
+  const auto s = state(here);
+  if (dim == 2)
+    here.for_each(atom->nlocal, Foam::TakeRates<2, B>{s, rates<2>(here), history, lagged()});
+  else
+    here.for_each(atom->nlocal, Foam::TakeRates<3, B>{s, rates<3>(here), history, lagged()});
+}
+
+template <class Space> void FixFoamIntegrate::redistribute_in(Space &here, double factor)
+{
+  using B = typename Space::Bubbles;
+  const auto s = state(here);
+  const double smallest = gas->smallest_radius();
+  if (dim == 2)
+    here.for_each(atom->nlocal, Foam::Redistribute<2, B>{s, smallest, factor});
+  else
+    here.for_each(atom->nlocal, Foam::Redistribute<3, B>{s, smallest, factor});
+}
+
+template <class Space> void FixFoamIntegrate::return_to_start_in(Space &here)
+{
+  using B = typename Space::Bubbles;
+  const auto s = state(here);
+  if (dim == 2)
+    here.for_each(atom->nlocal, Foam::ReturnToStart<2, B>{s});
+  else
+    here.for_each(atom->nlocal, Foam::ReturnToStart<3, B>{s});
+}
+
+template <class Space> void FixFoamIntegrate::take_listed_in(Space &here)
+{
+  here.for_each(atom->nlocal, Foam::TakeListed<typename Space::Bubbles>{state(here)});
+}
+
+template <class Space> double FixFoamIntegrate::largest_radius_in(Space &here)
+{
+  const Foam::LargestRadius<typename Space::Bubbles> body{here.bubbles()};
+  return here.totals(atom->nlocal, body).max[Foam::LARGEST];
+}
 
 }    // namespace LAMMPS_NS
 

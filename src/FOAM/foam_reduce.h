@@ -10,15 +10,26 @@
 #ifndef LMP_FOAM_REDUCE_H
 #define LMP_FOAM_REDUCE_H
 
+#include "foam_physics.h"
+
 #include <mpi.h>
 
 namespace LAMMPS_NS {
 
-// Sums and maxima over all ranks in one MPI_Allreduce instead of two.
+// Sums and maxima over bubbles: join() makes one of two, on the host and on a device, and
+// FoamReduce over all ranks, in one MPI_Allreduce instead of two.
 
 struct FoamTotals {
-  double sum[12] = {};
-  double max[4] = {};
+  static constexpr int SUMS = 7, MAXIMA = 4;
+  double sum[SUMS] = {};
+  double max[MAXIMA] = {};
+
+  FOAM_FUNCTION void join(const FoamTotals &other)
+  {
+    for (int m = 0; m < SUMS; m++) sum[m] += other.sum[m];
+    for (int m = 0; m < MAXIMA; m++)
+      if (other.max[m] > max[m]) max[m] = other.max[m];
+  }
 };
 
 class FoamReduce {
@@ -53,11 +64,7 @@ class FoamReduce {
   {
     const auto *a = static_cast<const FoamTotals *>(in);
     auto *b = static_cast<FoamTotals *>(inout);
-    for (int k = 0; k < *n; k++) {
-      for (int m = 0; m < 12; m++) b[k].sum[m] += a[k].sum[m];
-      for (int m = 0; m < 4; m++)
-        if (a[k].max[m] > b[k].max[m]) b[k].max[m] = a[k].max[m];
-    }
+    for (int k = 0; k < *n; k++) b[k].join(a[k]);
   }
 };
 

@@ -23,6 +23,35 @@ namespace Foam {
 
 enum class Scheme { STANDARD, SOURCE };
 
+// The variable that is advanced for the gas of a bubble: q = R^D, or q = R.  Of a candidate q
+// may be negative: a q = R^D counts as such, so that the sum of gas stays what it is; a
+// negative R is just none.
+
+enum class Variable { VOLUME, RADIUS };
+
+template <int D> FOAM_FUNCTION double radius_of(Variable variable, double q)
+{
+  if (variable == Variable::VOLUME) return radius_of_power<D>(q);
+  return q < 0.0 ? 0.0 : q;
+}
+
+template <int D> FOAM_FUNCTION double q_of(Variable variable, double R)
+{
+  return variable == Variable::VOLUME ? power_of_radius<D>(R) : R;
+}
+
+template <int D> FOAM_FUNCTION double gas_content(Variable variable, double q)
+{
+  return CONTENT<D> *
+         (variable == Variable::VOLUME ? q : power_of_radius<D>(radius_of<D>(variable, q)));
+}
+
+template <int D> FOAM_FUNCTION double q_rate(Variable variable, double Vdot, double R)
+{
+  if (variable == Variable::VOLUME) return power_rate<D>(Vdot);
+  return R > 0.0 ? radius_rate<D>(Vdot, R) : 0.0;
+}
+
 struct Predictor {
   double now, before;    // y* = y_n + now f_n + before f_{n-1}
 };

@@ -10,6 +10,13 @@
 #include "fix_foam_coarsen.h"
 #include "pair_durian_foam.h"
 
+#ifdef FOAM_KOKKOS
+#include "compute_foam_bubble_kokkos.h"
+#include "fix_foam_abm_kokkos.h"
+#include "fix_foam_coarsen_kokkos.h"
+#include "pair_durian_foam_kokkos.h"
+#endif
+
 using namespace LAMMPS_NS;
 
 // The C interface by which a plugin announces a style, as documented on LAMMPS' page "Writing
@@ -58,26 +65,49 @@ void lammpsplugin_init(void *lmp, void *handle, void *regfunc)
   plugin.author = "lammps-foam";
   plugin.handle = handle;
 
-  plugin.style = "pair";
-  plugin.name = "durian/foam";
-  plugin.info = "pair style durian/foam: bubbles that touch, Durian's bubble model";
-  plugin.creator.v1 = make_pair_style<PairDurianFoam>;
-  announce(&plugin, lmp);
+  auto pair = [&]<class Style>(const char *name) {
+    plugin.style = "pair";
+    plugin.name = name;
+    plugin.info = "pair style durian/foam: bubbles that touch, Durian's bubble model";
+    plugin.creator.v1 = make_pair_style<Style>;
+    announce(&plugin, lmp);
+  };
+  auto fix = [&]<class Style>(const char *name, const char *info) {
+    plugin.style = "fix";
+    plugin.name = name;
+    plugin.info = info;
+    plugin.creator.v2 = make_style<Fix, Style>;
+    announce(&plugin, lmp);
+  };
+  auto compute = [&]<class Style>(const char *name) {
+    plugin.style = "compute";
+    plugin.name = name;
+    plugin.info = "compute foam/bubble: contacts, free surface and growth of each bubble";
+    plugin.creator.v2 = make_style<Compute, Style>;
+    announce(&plugin, lmp);
+  };
+  const char *const coarsen = "fix foam/coarsen: gas exchange between bubbles";
+  const char *const abm = "fix foam/abm: adaptive Adams-Bashforth-Moulton steps";
 
-  plugin.style = "fix";
-  plugin.name = "foam/coarsen";
-  plugin.info = "fix foam/coarsen: gas exchange between bubbles";
-  plugin.creator.v2 = make_style<Fix, FixFoamCoarsen>;
-  announce(&plugin, lmp);
+  pair.operator()<PairDurianFoam>("durian/foam");
+  fix.operator()<FixFoamCoarsen>("foam/coarsen", coarsen);
+  fix.operator()<FixFoamABM>("foam/abm", abm);
+  compute.operator()<ComputeFoamBubble>("foam/bubble");
 
-  plugin.name = "foam/abm";
-  plugin.info = "fix foam/abm: adaptive Adams-Bashforth-Moulton steps";
-  plugin.creator.v2 = make_style<Fix, FixFoamABM>;
-  announce(&plugin, lmp);
+#ifdef FOAM_KOKKOS
+  pair.operator()<PairDurianFoamKokkos<LMPDeviceType>>("durian/foam/kk");
+  fix.operator()<FixFoamCoarsenKokkos<LMPDeviceType>>("foam/coarsen/kk", coarsen);
+  fix.operator()<FixFoamABMKokkos<LMPDeviceType>>("foam/abm/kk", abm);
+  compute.operator()<ComputeFoamBubbleKokkos<LMPDeviceType>>("foam/bubble/kk");
 
-  plugin.style = "compute";
-  plugin.name = "foam/bubble";
-  plugin.info = "compute foam/bubble: contacts, free surface and growth of each bubble";
-  plugin.creator.v2 = make_style<Compute, ComputeFoamBubble>;
-  announce(&plugin, lmp);
+  pair.operator()<PairDurianFoamKokkos<LMPDeviceType>>("durian/foam/kk/device");
+  fix.operator()<FixFoamCoarsenKokkos<LMPDeviceType>>("foam/coarsen/kk/device", coarsen);
+  fix.operator()<FixFoamABMKokkos<LMPDeviceType>>("foam/abm/kk/device", abm);
+  compute.operator()<ComputeFoamBubbleKokkos<LMPDeviceType>>("foam/bubble/kk/device");
+
+  pair.operator()<PairDurianFoamKokkos<LMPHostType>>("durian/foam/kk/host");
+  fix.operator()<FixFoamCoarsenKokkos<LMPHostType>>("foam/coarsen/kk/host", coarsen);
+  fix.operator()<FixFoamABMKokkos<LMPHostType>>("foam/abm/kk/host", abm);
+  compute.operator()<ComputeFoamBubbleKokkos<LMPHostType>>("foam/bubble/kk/host");
+#endif
 }

@@ -10,7 +10,7 @@
 #include "pair_durian_foam.h"
 
 #include "foam_input.h"
-#include "foam_physics.h"
+#include "foam_host.h"
 
 #include "atom.h"
 #include "comm.h"
@@ -25,7 +25,9 @@
 #include "neighbor.h"
 
 #include <cmath>
+#include <algorithm>
 #include <cstring>
+#include <vector>
 
 using namespace LAMMPS_NS;
 
@@ -34,9 +36,7 @@ static constexpr int MAX_SUMS = 8;
 
 /* ---------------------------------------------------------------------- */
 
-PairDurianFoam::PairDurianFoam(LAMMPS *lmp)
-    : Pair(lmp), contacts(nullptr), vsum(nullptr), area(nullptr), film(nullptr), espring(nullptr),
-      edurian(nullptr), sigma0(nullptr)
+PairDurianFoam::PairDurianFoam(LAMMPS *lmp) : Pair(lmp), sigma0(nullptr)
 {
   single_enable = 1;
   restartinfo = 1;
@@ -52,7 +52,7 @@ PairDurianFoam::PairDurianFoam(LAMMPS *lmp)
   gas_wanted = 0;
   headroom = 1.2;
   cutoff_radius = 0.0;
-  nmax = 0;
+  list_flags = NeighConst::REQ_SIZE;
   gathered = 0;
 }
 
@@ -67,12 +67,6 @@ PairDurianFoam::~PairDurianFoam()
     memory->destroy(cutsq);
     memory->destroy(sigma0);
   }
-  memory->destroy(contacts);
-  memory->destroy(vsum);
-  memory->destroy(area);
-  memory->destroy(film);
-  memory->destroy(espring);
-  memory->destroy(edurian);
 }
 
 /* ----------------------------------------------------------------------
@@ -82,226 +76,124 @@ PairDurianFoam::~PairDurianFoam()
 void PairDurianFoam::compute(int eflag, int vflag)
 {
   ev_init(eflag, vflag);
-  dispatch(FORCE | (neighbor_drag ? DRAG : 0u) | gas_wanted);
+  gather(Foam::FORCE | (neighbor_drag ? Foam::DRAG : 0u) | gas_wanted);
 }
 
 void PairDurianFoam::gather()
 {
   ev_unset();
-  dispatch(TO_LOOK_AT);
+  gather(Foam::TO_LOOK_AT);
 }
 
-void PairDurianFoam::dispatch(unsigned what)
+void PairDurianFoam::gather(unsigned what)
 {
-  grow_sums(what);
-  const bool newton = force->newton_pair;
-  clear_sums(what, atom->nlocal + (newton ? atom->nghost : 0));
-
-  // every combination that occurs is a loop of its own, so what is off costs nothing
-
-  auto run = [&]<int D, unsigned WHAT>() {
-    if (newton) {
-      evflag ? eval<D, WHAT, true, true>() : eval<D, WHAT, false, true>();
-    } else {
-      evflag ? eval<D, WHAT, true, false>() : eval<D, WHAT, false, false>();
-    }
-  };
-  auto choose = [&]<int D>() {
-    switch (what) {
-      case FORCE:
-        return run.template operator()<D, FORCE>();
-      case FORCE | DRAG:
-        return run.template operator()<D, FORCE | DRAG>();
-      case FORCE | FILM:
-        return run.template operator()<D, FORCE | FILM>();
-      case FORCE | FILM | DRAG:
-        return run.template operator()<D, FORCE | FILM | DRAG>();
-      case FORCE | FILM | AREA:
-        return run.template operator()<D, FORCE | FILM | AREA>();
-      case FORCE | FILM | AREA | DRAG:
-        return run.template operator()<D, FORCE | FILM | AREA | DRAG>();
-      case TO_LOOK_AT:
-        return run.template operator()<D, TO_LOOK_AT>();
-      default:
-        error->one(FLERR, "Pair style durian/foam: no loop gathers {}", what);
-    }
-  };
-  if (domain->dimension == 2)
-    choose.operator()<2>();
-  else
-    choose.operator()<3>();
-
-  gathered = what & ~FORCE;
-  if (newton && gathered) comm->reverse_comm(this);
+  if (what & Foam::CONTACTS) contacts.use(atom->nmax);
+  if (what & Foam::VSUM) vsum.use(atom->nmax);
+  if (what & Foam::AREA) area.use(atom->nmax);
+  if (what & Foam::FILM) film.use(atom->nmax);
+  if (what & Foam::ENERGY) energies.use(atom->nmax);
+  gather_contacts(what);
 }
 
-template <int D, unsigned WHAT, bool TALLY, bool NEWTON> void PairDurianFoam::eval()
-{
-  const double *const *const x = atom->x;
-  const double *const *const v = atom->v;
-  double *const *const f = atom->f;
-  const double *const radius = atom->radius;
-  const int *const type = atom->type;
-  const tagint *const tag = atom->tag;
-  const int nlocal = atom->nlocal;
+// here over LAMMPS' half list, each pair once: ghosts collect their part, and send it home
 
-  for (int ii = 0; ii < list->inum; ii++) {
-    const int i = list->ilist[ii];
-    const double Ri = radius[i];
-    if (!(Ri > 0.0)) continue;    // dead
-    const int *const jlist = list->firstneigh[i];
-    const int jnum = list->numneigh[i];
-    const double xi[3] = {x[i][0], x[i][1], D == 3 ? x[i][2] : 0.0};
-    const double *const sigma0_i = sigma0[type[i]];
-    double fi[3] = {}, vsum_i[3] = {};
-    double contacts_i = 0.0, area_i = 0.0, film_i = 0.0, espring_i = 0.0, edurian_i = 0.0;
+namespace {
 
-    for (int jj = 0; jj < jnum; jj++) {
-      const int j = jlist[jj] & NEIGHMASK;
-      const double Rj = radius[j];
-      const double Rsum = Ri + Rj;
-      double del[3] = {xi[0] - x[j][0], xi[1] - x[j][1], D == 3 ? xi[2] - x[j][2] : 0.0};
-      const double rsq = del[0] * del[0] + del[1] * del[1] + del[2] * del[2];
-      if (!(rsq < Rsum * Rsum) || !(Rj > 0.0)) continue;
+struct HalfList {
+  const int *ilist, *numneigh;
+  const int *const *firstneigh;
+  bool newton;
+  int nlocal;
 
-      const bool add_j = NEWTON || j < nlocal;
-      const double r = std::sqrt(rsq);
-      const double overlap = Rsum - r;
-      const double sigma = sigma0_i[type[j]];
-
-      if constexpr (WHAT & FORCE) {
-        const double F = Foam::spring_force(sigma * rin, overlap, Rsum);
-        double F_over_r = 0.0;    // stays 0 at r = 0, where force and virial have no direction
-        double F_xyz[3];
-        if (r > 0.0) {
-          F_over_r = F / r;
-          for (int k = 0; k < 3; k++) F_xyz[k] = F_over_r * del[k];
-        } else {
-          F_xyz[0] = Foam::coincident_sign(tag[i], tag[j]) * F;
-          F_xyz[1] = F_xyz[2] = 0.0;
-        }
-        for (int k = 0; k < D; k++) fi[k] += F_xyz[k];
-        if (add_j)
-          for (int k = 0; k < D; k++) f[j][k] -= F_xyz[k];
-        if constexpr (TALLY)
-          ev_tally(i, j, nlocal, NEWTON,
-                   eflag_either ? Foam::spring_energy(sigma * rin, overlap, Rsum) : 0.0, 0.0,
-                   F_over_r, del[0], del[1], del[2]);
-      }
-      if constexpr (WHAT & CONTACTS) {
-        contacts_i += 1.0;
-        if (add_j) contacts[j] += 1.0;
-      }
-      if constexpr (WHAT & VSUM) {
-        for (int k = 0; k < D; k++) vsum_i[k] += v[j][k];
-        if (add_j)
-          for (int k = 0; k < D; k++) vsum[j][k] += v[i][k];
-      }
-      if constexpr (WHAT & FILM) {
-        const double A = Foam::contact_area<D>(r, Ri, Rj);
-        const double exchange = Foam::film_exchange(A, Ri, Rj);
-        film_i += exchange;
-        if (add_j) film[j] -= exchange;
-        if constexpr (WHAT & AREA) {
-          area_i += A;
-          if (add_j) area[j] += A;
-        }
-      }
-      if constexpr (WHAT & ENERGY) {
-        const double half_spring = 0.5 * Foam::spring_energy(sigma * rin, overlap, Rsum);
-        const double durian = Foam::durian_energy(sigma, overlap);
-        espring_i += half_spring;
-        edurian_i += durian;
-        if (add_j) {
-          espring[j] += half_spring;
-          edurian[j] += durian;
-        }
-      }
-    }
-
-    if constexpr (WHAT & FORCE)
-      for (int k = 0; k < D; k++) f[i][k] += fi[k];
-    if constexpr (WHAT & CONTACTS) contacts[i] += contacts_i;
-    if constexpr (WHAT & VSUM)
-      for (int k = 0; k < D; k++) vsum[i][k] += vsum_i[k];
-    if constexpr (WHAT & FILM) film[i] += film_i;
-    if constexpr (WHAT & AREA) area[i] += area_i;
-    if constexpr (WHAT & ENERGY) {
-      espring[i] += espring_i;
-      edurian[i] += edurian_i;
-    }
+  struct Row {
+    int i, size;
+    const int *partners;
+    bool newton;
+    int nlocal;
+    int operator[](int m) const { return partners[m] & NEIGHMASK; }
+    bool both(int, int j) const { return newton || j < nlocal; }
+  };
+  Row row(int n) const
+  {
+    const int i = ilist[n];
+    return {i, numneigh[i], firstneigh[i], newton, nlocal};
   }
+};
+
+}    // namespace
+
+void PairDurianFoam::gather_contacts(unsigned what)
+{
+  const bool flat = domain->dimension == 2;
+  const bool done = Foam::for_each_gathered(
+      what, [&]<unsigned WHAT>() { flat ? gather_in<2, WHAT>() : gather_in<3, WHAT>(); });
+  if (!done) error->one(FLERR, "Pair style durian/foam: no loop gathers {}", what);
+
+  gathered = what & ~Foam::FORCE;
+  if (force->newton_pair && gathered) comm->reverse_comm(this);
+}
+
+struct PairDurianFoam::Tally {
+  static constexpr bool ON = true;
+  PairDurianFoam *style;
+  int nlocal, newton;
+  void pair(int i, int j, bool, double energy, double F_over_r, const double *del)
+  {
+    style->ev_tally(i, j, nlocal, newton, energy, 0.0, F_over_r, del[0], del[1], del[2]);
+  }
+};
+
+template <int D, unsigned WHAT> void PairDurianFoam::gather_in()
+{
+  FoamHost here(lmp);
+  const int nlocal = atom->nlocal, newton = force->newton_pair;
+  const HalfList half{list->ilist, list->numneigh, list->firstneigh, newton != 0, nlocal};
+  const Foam::Springs springs{sigma0[0], atom->ntypes, rin};
+  const Foam::ContactSums sums = contact_sums(here);
+  const int nall = nlocal + (newton ? atom->nghost : 0);
+  for (int i = 0; i < nall; i++) sums.clear<WHAT>(i);
+
+  auto loop = [&]<class T>(T tally) {
+    const Foam::ContactLoop<D, WHAT, false, Foam::HostBubbles, HalfList, T> body{
+        here.bubbles(), half, springs, sums, true};
+    for (int n = 0; n < list->inum; n++) body(n, tally);
+  };
+  if (evflag)
+    loop(Tally{this, nlocal, newton});
+  else
+    loop(Foam::NoTally());
 }
 
 /* ---------------------------------------------------------------------- */
 
-void PairDurianFoam::grow_sums(unsigned what)
-{
-  if (atom->nmax > nmax) {
-    nmax = atom->nmax;
-    memory->destroy(contacts);
-    memory->destroy(vsum);
-    memory->destroy(area);
-    memory->destroy(film);
-    memory->destroy(espring);
-    memory->destroy(edurian);
-  }
-  if ((what & CONTACTS) && !contacts) memory->create(contacts, nmax, "durian/foam:contacts");
-  if ((what & VSUM) && !vsum) memory->create(vsum, nmax, 3, "durian/foam:vsum");
-  if ((what & FILM) && !film) memory->create(film, nmax, "durian/foam:film");
-  if ((what & AREA) && !area) memory->create(area, nmax, "durian/foam:area");
-  if ((what & ENERGY) && !espring) {
-    memory->create(espring, nmax, "durian/foam:espring");
-    memory->create(edurian, nmax, "durian/foam:edurian");
-  }
-}
+// the columns that were gathered
 
-void PairDurianFoam::clear_sums(unsigned what, int n)
+static std::vector<FoamColumns *> those(unsigned gathered, PairDurianFoam &p)
 {
-  const size_t bytes = sizeof(double) * n;
-  if (bytes == 0) return;
-  if (what & CONTACTS) memset(contacts, 0, bytes);
-  if (what & VSUM) memset(&vsum[0][0], 0, 3 * bytes);
-  if (what & FILM) memset(film, 0, bytes);
-  if (what & AREA) memset(area, 0, bytes);
-  if (what & ENERGY) {
-    memset(espring, 0, bytes);
-    memset(edurian, 0, bytes);
-  }
+  std::vector<FoamColumns *> all;
+  if (gathered & Foam::CONTACTS) all.push_back(&p.contacts);
+  if (gathered & Foam::VSUM) all.push_back(&p.vsum);
+  if (gathered & Foam::FILM) all.push_back(&p.film);
+  if (gathered & Foam::AREA) all.push_back(&p.area);
+  if (gathered & Foam::ENERGY) all.push_back(&p.energies);
+  return all;
 }
 
 int PairDurianFoam::pack_reverse_comm(int n, int first, double *buf)
 {
   int m = 0;
-  for (int i = first; i < first + n; i++) {
-    if (gathered & CONTACTS) buf[m++] = contacts[i];
-    if (gathered & VSUM)
-      for (int k = 0; k < 3; k++) buf[m++] = vsum[i][k];
-    if (gathered & FILM) buf[m++] = film[i];
-    if (gathered & AREA) buf[m++] = area[i];
-    if (gathered & ENERGY) {
-      buf[m++] = espring[i];
-      buf[m++] = edurian[i];
-    }
-  }
+  for (FoamColumns *sums : those(gathered, *this))
+    for (int c = 0; c < sums->active(); c++, m += n) std::copy_n((*sums)[c] + first, n, buf + m);
   return m;
 }
 
 void PairDurianFoam::unpack_reverse_comm(int n, int *sendlist, double *buf)
 {
-  int m = 0;
-  for (int ii = 0; ii < n; ii++) {
-    const int i = sendlist[ii];
-    if (gathered & CONTACTS) contacts[i] += buf[m++];
-    if (gathered & VSUM)
-      for (int k = 0; k < 3; k++) vsum[i][k] += buf[m++];
-    if (gathered & FILM) film[i] += buf[m++];
-    if (gathered & AREA) area[i] += buf[m++];
-    if (gathered & ENERGY) {
-      espring[i] += buf[m++];
-      edurian[i] += buf[m++];
+  for (FoamColumns *sums : those(gathered, *this))
+    for (int c = 0; c < sums->active(); c++) {
+      double *const sum = (*sums)[c];
+      for (int ii = 0; ii < n; ii++) sum[sendlist[ii]] += *buf++;
     }
-  }
 }
 
 /* ---------------------------------------------------------------------- */
@@ -426,7 +318,7 @@ void PairDurianFoam::init_style()
     cutoff_radius = MAX(largest, MIN(cutoff_radius, 0.5 * (side - neighbor->skin)));
   }
 
-  neighbor->add_request(this, NeighConst::REQ_SIZE);
+  neighbor->add_request(this, list_flags);
 }
 
 double PairDurianFoam::init_one(int i, int j)
@@ -477,14 +369,6 @@ void PairDurianFoam::refresh()
   neighbor->ndanger = ndanger;
   comm->setup();
   if (neighbor->style) neighbor->setup_bins();
-}
-
-bool PairDurianFoam::outgrown() const
-{
-  double mine = 0.0, all;
-  for (int i = 0; i < atom->nlocal; i++) mine = MAX(mine, atom->radius[i]);
-  MPI_Allreduce(&mine, &all, 1, MPI_DOUBLE, MPI_MAX, world);
-  return all > cutoff_radius;
 }
 
 double PairDurianFoam::stiffest() const
@@ -580,12 +464,6 @@ void PairDurianFoam::write_data_all(FILE *fp)
 
 double PairDurianFoam::memory_usage()
 {
-  double bytes = Pair::memory_usage();
-  const double each = sizeof(double) * static_cast<double>(nmax);
-  if (contacts) bytes += each;
-  if (vsum) bytes += 3.0 * each;
-  if (film) bytes += each;
-  if (area) bytes += each;
-  if (espring) bytes += 2.0 * each;
-  return bytes;
+  return Pair::memory_usage() + contacts.bytes() + vsum.bytes() + area.bytes() + film.bytes() +
+         energies.bytes();
 }

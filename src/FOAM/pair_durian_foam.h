@@ -16,6 +16,8 @@ PairStyle(durian/foam,PairDurianFoam);
 #ifndef LMP_PAIR_DURIAN_FOAM_H
 #define LMP_PAIR_DURIAN_FOAM_H
 
+#include "foam_columns.h"
+#include "foam_contacts.h"
 #include "pair.h"
 
 namespace LAMMPS_NS {
@@ -43,49 +45,45 @@ class PairDurianFoam : public Pair {
   void *extract(const char *, int &) override;
   double memory_usage() override;
 
-  // what one pass over the neighbor list gathers beside each other
-  enum Gather : unsigned {
-    FORCE = 1,       // spring forces, energy and virial
-    CONTACTS = 2,    // number of contacts
-    VSUM = 4,        // sum of neighbors' velocities
-    FILM = 8,        // sum of film exchange
-    AREA = 16,       // sum of contact areas
-    ENERGY = 32,     // each bubble's share of the energies
-    DRAG = CONTACTS | VSUM,
-    TO_LOOK_AT = CONTACTS | FILM | AREA | ENERGY
-  };
-
-  virtual void gather();              // TO_LOOK_AT of this state, for computes
-  void refresh();                     // cutoffs, ghosts and bins for bubbles that have grown
-  virtual bool outgrown() const;      // has the largest bubble of all ranks outgrown the cutoffs?
-  double stiffest() const;            // largest sigma0
+  void gather();     // Foam::TO_LOOK_AT of this state, for computes
+  void refresh();    // cutoffs, ghosts and bins for bubbles that have grown
+  bool outgrown(double R) const { return R > cutoff_radius; }    // have bubbles of this radius?
+  double stiffest() const;                                       // largest sigma0
   void keep_means(double, double);    // <R_in>, <A_in> of a simulation that goes on
 
   double mu0;             // drag coefficient
   double rin, ain;        // <R_in>, <A_in>: means at the start of the first run
   bool neighbor_drag;     // drag relative to neighbors' mean velocity or to a liquid at rest
-  unsigned gas_wanted;    // set by the integrator: FILM, AREA to gather in each compute()
+  unsigned gas_wanted;    // set by the integrator: Foam::FILM, AREA to gather in each compute()
 
   // sums over the contacts of each bubble, as gathered last; ghosts' parts are added in
-  double *contacts;             // number of contacts
-  double **vsum;                // sum of neighbors' velocities
-  double *area;                 // sum of A_ij
-  double *film;                 // sum of A_ij (1/R_j - 1/R_i)
-  double *espring, *edurian;    // half of the springs' energies; energy of [L20]
+
+  FoamColumns contacts{1}, vsum{3}, area{1}, film{1}, energies{2};
+  enum { ESPRING, EDURIAN };
+
+  template <class Space> Foam::ContactSums contact_sums(Space &here)
+  {
+    return {here.column(contacts, 0),
+            {here.column(vsum, 0), here.column(vsum, 1), here.column(vsum, 2)},
+            here.column(area, 0),
+            here.column(film, 0),
+            here.column(energies, ESPRING),
+            here.column(energies, EDURIAN)};
+  }
 
  protected:
   bool rin_fixed, ain_fixed;    // given, or a run has started
   double headroom;              // cutoffs hold for radii up to headroom * present largest
   double cutoff_radius;         // the largest radius the present cutoffs are good for
   double **sigma0;              // per pair of types
-  int nmax;                     // allocated length of the sums
+  int list_flags;               // of the request for a neighbor list
   unsigned gathered;            // what is sent in reverse communication
 
   void allocate();
-  virtual void grow_sums(unsigned);
-  void clear_sums(unsigned, int);
-  void dispatch(unsigned);
-  template <int D, unsigned WHAT, bool TALLY, bool NEWTON> void eval();
+  void gather(unsigned);
+  virtual void gather_contacts(unsigned);    // the loop itself
+  struct Tally;
+  template <int D, unsigned WHAT> void gather_in();
 };
 
 }    // namespace LAMMPS_NS

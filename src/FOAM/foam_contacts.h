@@ -1,0 +1,171 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   This software is distributed under the GNU General Public License.
+   Wet-foam package: see the README file of the package.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_FOAM_CONTACTS_H
+#define LMP_FOAM_CONTACTS_H
+
+#include "foam_loops.h"
+
+// The one loop over contacts, for base and KOKKOS styles: spring forces, and beside them, in the
+// same pass, what drag and gas exchange need.
+
+namespace Foam {
+
+// Every combination that occurs is a loop of its own, so what is off costs nothing: calls
+// run<WHAT>() for the given one, and returns false if there is none
+
+template <class Run> bool for_each_gathered(unsigned what, Run &&run)
+{
+  switch (what) {
+    case FORCE:
+      run.template operator()<FORCE>();
+      return true;
+    case FORCE | DRAG:
+      run.template operator()<FORCE | DRAG>();
+      return true;
+    case FORCE | FILM:
+      run.template operator()<FORCE | FILM>();
+      return true;
+    case FORCE | FILM | DRAG:
+      run.template operator()<FORCE | FILM | DRAG>();
+      return true;
+    case FORCE | FILM | AREA:
+      run.template operator()<FORCE | FILM | AREA>();
+      return true;
+    case FORCE | FILM | AREA | DRAG:
+      run.template operator()<FORCE | FILM | AREA | DRAG>();
+      return true;
+    case TO_LOOK_AT:
+      run.template operator()<TO_LOOK_AT>();
+      return true;
+    default:
+      return false;
+  }
+}
+
+struct Springs {
+  const double *sigma0;    // of a pair of types, [ntypes+1][ntypes+1]
+  int ntypes;
+  double Rin;
+};
+
+struct NoTally {
+  static constexpr bool ON = false;
+};
+
+// List gives a row for bubble number n of the loop:
+//   row.i, row.size, row[m]      the bubble and its m-th partner
+//   row.both(m)                  is this the only time that the pair occurs: then both get their share
+//
+// Tally, if ON, is told the energy and the force of each pair.
+// A bubble's own sums are added to what is there, or, if ASSIGN, take its place.
+
+template <int D, unsigned WHAT, bool ASSIGN, class B, class List, class Tally> struct ContactLoop {
+  B b;
+  List list;
+  Springs springs;
+  ContactSums sums;
+  bool forces_add;    // even then
+
+  FOAM_FUNCTION void operator()(int n, Tally &tally) const
+  {
+    const auto row = list.row(n);
+    const int i = row.i;
+    const double Ri = b.radius(i);
+    const double xi[3] = {b.x(i, 0), b.x(i, 1), D == 3 ? b.x(i, 2) : 0.0};
+    const double *const sigma0_i =
+        springs.ntypes == 1 ? nullptr : springs.sigma0 + b.type(i) * (springs.ntypes + 1);
+    const double sigma0 = springs.sigma0[springs.ntypes + 2];    // of types 1 and 1
+    double fi[3] = {}, vsum_i[3] = {};
+    double contacts_i = 0.0, area_i = 0.0, film_i = 0.0, espring_i = 0.0, edurian_i = 0.0;
+
+    const int size = Ri > 0.0 ? row.size : 0;    // the dead touch nobody
+    for (int m = 0; m < size; m++) {
+      const int j = row[m];
+      const double Rj = b.radius(j);
+      const double Rsum = Ri + Rj;
+      const double del[3] = {xi[0] - b.x(j, 0), xi[1] - b.x(j, 1),
+                             D == 3 ? xi[2] - b.x(j, 2) : 0.0};
+      const double rsq = del[0] * del[0] + del[1] * del[1] + del[2] * del[2];
+      if (!(rsq < Rsum * Rsum) || !(Rj > 0.0)) continue;
+
+      const bool both = row.both(m, j);
+      const double r = std::sqrt(rsq);
+      const double overlap = Rsum - r;
+      const double sigma = sigma0_i ? sigma0_i[b.type(j)] : sigma0;
+
+      if constexpr (WHAT & FORCE) {
+        const double F = spring_force(sigma * springs.Rin, overlap, Rsum);
+        double F_over_r = 0.0;    // stays 0 at r = 0, where force and virial have no direction
+        double F_xyz[3] = {};
+        if (r > 0.0) {
+          F_over_r = F / r;
+          for (int k = 0; k < D; k++) F_xyz[k] = F_over_r * del[k];
+        } else
+          F_xyz[0] = coincident_sign(b.tag(i), b.tag(j)) * F;
+        for (int k = 0; k < D; k++) fi[k] += F_xyz[k];
+        if (both)
+          for (int k = 0; k < D; k++) b.f(j, k) -= F_xyz[k];
+        if constexpr (Tally::ON)
+          tally.pair(i, j, both, spring_energy(sigma * springs.Rin, overlap, Rsum), F_over_r, del);
+      }
+      if constexpr (WHAT & CONTACTS) {
+        contacts_i += 1.0;
+        if (both) sums.contacts[j] += 1.0;
+      }
+      if constexpr (WHAT & VSUM) {
+        for (int k = 0; k < D; k++) vsum_i[k] += b.v(j, k);
+        if (both)
+          for (int k = 0; k < D; k++) sums.vsum[k][j] += b.v(i, k);
+      }
+      if constexpr (WHAT & FILM) {
+        const double A = contact_area<D>(r, Ri, Rj);
+        const double exchange = film_exchange(A, Ri, Rj);
+        film_i += exchange;
+        if (both) sums.film[j] -= exchange;
+        if constexpr (WHAT & AREA) {
+          area_i += A;
+          if (both) sums.area[j] += A;
+        }
+      }
+      if constexpr (WHAT & ENERGY) {
+        const double half_spring = 0.5 * spring_energy(sigma * springs.Rin, overlap, Rsum);
+        const double durian = durian_energy(sigma, overlap);
+        espring_i += half_spring;
+        edurian_i += durian;
+        if (both) {
+          sums.espring[j] += half_spring;
+          sums.edurian[j] += durian;
+        }
+      }
+    }
+
+    if constexpr (ASSIGN) sums.clear<WHAT>(i);
+    if constexpr (WHAT & FORCE)
+      for (int k = 0; k < 3; k++) {
+        if (ASSIGN && !forces_add)
+          b.f(i, k) = fi[k];
+        else if (k < D)
+          b.f(i, k) += fi[k];
+      }
+    if constexpr (WHAT & CONTACTS) sums.contacts[i] += contacts_i;
+    if constexpr (WHAT & VSUM)
+      for (int k = 0; k < D; k++) sums.vsum[k][i] += vsum_i[k];
+    if constexpr (WHAT & FILM) sums.film[i] += film_i;
+    if constexpr (WHAT & AREA) sums.area[i] += area_i;
+    if constexpr (WHAT & ENERGY) {
+      sums.espring[i] += espring_i;
+      sums.edurian[i] += edurian_i;
+    }
+  }
+};
+
+}    // namespace Foam
+
+#endif

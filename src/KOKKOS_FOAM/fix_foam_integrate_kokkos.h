@@ -1,0 +1,182 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   This software is distributed under the GNU General Public License.
+   Wet-foam package: see the README file of the package.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_FIX_FOAM_INTEGRATE_KOKKOS_H
+#define LMP_FIX_FOAM_INTEGRATE_KOKKOS_H
+
+#include "foam_kokkos.h"
+
+#include "atom_kokkos.h"
+#include "comm.h"
+#include "force.h"
+#include "kokkos_base.h"
+#include "modify.h"
+#include "pair.h"
+#include "timer.h"
+
+namespace LAMMPS_NS {
+
+// An integrator of a foam on a device: Style, such as FixFoamABM, with its loops there, and its
+// columns travelling with the bubbles without a detour to the host.
+
+template <class Style, class DeviceType>
+class FixFoamIntegrateKokkos : public Style, public KokkosBase {
+ public:
+  FixFoamIntegrateKokkos(LAMMPS *lmp, int narg, char **arg)
+      : Style(lmp, narg, arg), here(lmp, X_MASK | V_MASK | RADIUS_MASK),
+        atomKK(dynamic_cast<AtomKokkos *>(lmp->atom))
+  {
+    this->kokkosable = 1;
+    this->exchange_comm_device = this->sort_device = 1;
+    this->execution_space = FoamKokkos<DeviceType>::SPACE;
+    this->datamask_read = this->datamask_modify = EMPTY_MASK;    // the loops see to it
+    for (FoamColumns *c :
+         {&this->columns, &this->lags, &this->start, &this->v_start, &this->listed, &this->next})
+      here.keep(*c);
+  }
+
+  int pack_exchange_kokkos(const int &nsend, DAT::tdual_double_2d_lr &k_buf,
+                           DAT::tdual_int_1d k_sendlist, DAT::tdual_int_1d k_copylist,
+                           ExecutionSpace) override
+  {
+    k_buf.sync<DeviceType>();
+    k_sendlist.sync<DeviceType>();
+    k_copylist.sync<DeviceType>();
+    const Travelling all = travelling();
+    here.for_each(nsend, Pack{all, k_buf.view<DeviceType>().data(), k_sendlist.view<DeviceType>(),
+                              k_copylist.view<DeviceType>()});
+    k_buf.modify<DeviceType>();
+    return nsend * all.count;
+  }
+
+  // the second message of two begins at nextrarecv1, with the bubbles from nrecv1 on
+
+  void unpack_exchange_kokkos(DAT::tdual_double_2d_lr &k_buf, DAT::tdual_int_1d &k_indices,
+                              int nrecv, int nrecv1, int nextrarecv1, ExecutionSpace) override
+  {
+    k_buf.sync<DeviceType>();
+    k_indices.sync<DeviceType>();
+    here.for_each(nrecv, Unpack{travelling(), k_buf.view<DeviceType>().data(),
+                                k_indices.view<DeviceType>(), nrecv1, nextrarecv1});
+  }
+
+  void sort_kokkos(Kokkos::BinSort<KeyViewType, BinOp> &sorter) override
+  {
+    for (FoamColumns *columns : {&this->columns, &this->lags})
+      for (int c = 0; c < columns->active(); c++) {
+        using Column = Kokkos::View<double *, LMPDeviceType, Kokkos::MemoryUnmanaged>;
+        sorter.sort(LMPDeviceType(), Column(columns->on_device(c), columns->rows()));
+      }
+  }
+
+ protected:
+  FoamKokkos<DeviceType> here;
+  AtomKokkos *atomKK;
+
+  void keep_history() override { this->keep_history_in(here); }
+  void take_rates(bool history) override { this->take_rates_in(here, history); }
+  void redistribute(double factor) override { this->redistribute_in(here, factor); }
+  void return_to_start() override { this->return_to_start_in(here); }
+  void take_listed() override { this->take_listed_in(here); }
+  double largest_radius() override { return this->largest_radius_in(here); }
+
+  void host_reads() override { atomKK->sync(Host, ALL_MASK); }
+  void host_wrote() override { atomKK->modified(Host, X_MASK | V_MASK | F_MASK | RADIUS_MASK); }
+
+  // as VerletKokkos::run() does it in turn
+
+  void compute_forces(int eflag, int vflag) override
+  {
+    Timer *const timer = this->timer;
+    Modify *const modify = this->modify;
+    Pair *const pair = this->force->pair;
+    timer->stamp(Timer::MODIFY);
+    this->comm->forward_comm();
+    timer->stamp(Timer::COMM);
+
+    if (!pair->fuse_force_clear_flag || modify->n_pre_force) clear_forces();
+    if (modify->n_pre_force) modify->pre_force(vflag);
+    timer->stamp(Timer::MODIFY);
+    atomKK->sync(pair->execution_space, pair->datamask_read);
+    pair->compute(eflag, vflag);
+    atomKK->modified(pair->execution_space, pair->datamask_modify);
+    timer->stamp(Timer::PAIR);
+    if (this->force->newton) {
+      Kokkos::fence();
+      this->comm->reverse_comm();
+      timer->stamp(Timer::COMM);
+    }
+    if (modify->n_post_force_any) modify->post_force(vflag);
+  }
+
+ private:
+  struct Travelling {    // all columns that are in use
+    static constexpr int MOST = 16;
+    int count;
+    double *column[MOST];
+  };
+  Travelling travelling()
+  {
+    Travelling all{0, {}};
+    for (FoamColumns *columns : {&this->columns, &this->lags})
+      for (int c = 0; c < columns->active(); c++) all.column[all.count++] = columns->on_device(c);
+    return all;
+  }
+
+  using Numbers = typename ArrayTypes<DeviceType>::t_int_1d;
+
+  struct Pack {
+    static constexpr const char *NAME = "foam: pack exchange";
+    Travelling all;
+    double *buf;
+    Numbers sendlist, copylist;
+    KOKKOS_INLINE_FUNCTION void operator()(int n) const
+    {
+      const int i = sendlist(n), j = copylist(n);
+      for (int c = 0; c < all.count; c++) {
+        buf[static_cast<size_t>(n) * all.count + c] = all.column[c][i];
+        if (j >= 0) all.column[c][i] = all.column[c][j];    // fills the gap
+      }
+    }
+  };
+
+  struct Unpack {
+    static constexpr const char *NAME = "foam: unpack exchange";
+    Travelling all;
+    const double *buf;
+    Numbers indices;
+    int nrecv1, nextrarecv1;
+    KOKKOS_INLINE_FUNCTION void operator()(int n) const
+    {
+      const int i = indices(n);
+      if (i < 0) return;    // not for this rank
+      const double *from = n < nrecv1
+                               ? buf + static_cast<size_t>(n) * all.count
+                               : buf + nextrarecv1 + static_cast<size_t>(n - nrecv1) * all.count;
+      for (int c = 0; c < all.count; c++) all.column[c][i] = from[c];
+    }
+  };
+
+  struct Clear {
+    static constexpr const char *NAME = "foam: clear forces";
+    typename ArrayTypes<DeviceType>::t_kkacc_1d_3 f;
+    KOKKOS_INLINE_FUNCTION void operator()(int i) const { f(i, 0) = f(i, 1) = f(i, 2) = 0.0; }
+  };
+  void clear_forces()
+  {
+    atomKK->k_f.clear_sync_state();
+    here.for_each(this->atom->nlocal + (this->force->newton ? this->atom->nghost : 0),
+                  Clear{atomKK->k_f.view<DeviceType>()});
+    atomKK->modified(FoamKokkos<DeviceType>::SPACE, F_MASK);
+  }
+};
+
+}    // namespace LAMMPS_NS
+
+#endif

@@ -1,0 +1,174 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   This software is distributed under the GNU General Public License.
+   Wet-foam package: see the README file of the package.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_FOAM_KOKKOS_H
+#define LMP_FOAM_KOKKOS_H
+
+#include "foam_columns.h"
+#include "foam_loops.h"
+
+#include "atom_kokkos.h"
+#include "atom_masks.h"
+#include "kokkos_type.h"
+
+namespace LAMMPS_NS {
+
+// Columns on host and device. Whoever asks for one side may write to it, so a change of sides
+// copies the block: during a run nobody asks for the host's.
+
+template <class DeviceType> class FoamKokkosStorage : public FoamStorage {
+ public:
+  void resize(int columns, int length) override
+  {
+    if (block.extent(0) == 0)
+      block = Block("foam:columns", length, columns);
+    else
+      block.resize(length, columns);
+  }
+  double *on_host() override
+  {
+    block.sync_host();
+    block.modify_host();
+    return block.view_host().data();
+  }
+  double *on_device() override
+  {
+    block.sync_device();
+    block.modify_device();
+    return block.view_device().data();
+  }
+  auto view()
+  {
+    on_device();
+    return block.view_device();
+  }
+
+ private:
+  using Block = Kokkos::DualView<double **, Kokkos::LayoutLeft, DeviceType>;
+  Block block;
+};
+
+// LAMMPS' bubbles on the device, in its precision: see Foam::HostBubbles
+
+template <class DeviceType> struct FoamKokkosBubbles {
+  using AT = ArrayTypes<DeviceType>;
+  typename AT::t_kkfloat_1d_3_lr x;
+  typename AT::t_kkfloat_1d_3 v;
+  typename AT::t_kkacc_1d_3 f;
+  typename AT::t_kkfloat_1d radius;
+  typename AT::t_int_1d type;
+  typename AT::t_tagint_1d tag;
+
+  KOKKOS_INLINE_FUNCTION double place(int i, int k) const { return x(i, k); }
+  KOKKOS_INLINE_FUNCTION void put(int i, int k, double value) const { x(i, k) = value; }
+};
+
+// Reduction of what has a join(), to the host or, without waiting for it, to memory of the device
+
+template <class Value, class Space> class FoamJoin {
+ public:
+  using reducer = FoamJoin;
+  using value_type = Value;
+  using result_view_type = Kokkos::View<Value, Space, Kokkos::MemoryUnmanaged>;
+
+  KOKKOS_INLINE_FUNCTION explicit FoamJoin(Value *where) : result(where) {}
+  KOKKOS_INLINE_FUNCTION void join(Value &to, const Value &from) const { to.join(from); }
+  KOKKOS_INLINE_FUNCTION void init(Value &value) const { value = Value(); }
+  KOKKOS_INLINE_FUNCTION Value &reference() const { return *result.data(); }
+  KOKKOS_INLINE_FUNCTION result_view_type view() const { return result; }
+
+ private:
+  result_view_type result;
+};
+
+// The space in which KOKKOS styles run: see FoamHost
+
+template <class DeviceType> class FoamKokkos : protected Pointers {
+ public:
+  using Bubbles = FoamKokkosBubbles<DeviceType>;
+  static constexpr ExecutionSpace SPACE = ExecutionSpaceFromDevice<DeviceType>::space;
+  static constexpr bool ON_HOST =
+      Kokkos::SpaceAccessibility<Kokkos::HostSpace, typename DeviceType::memory_space>::accessible;
+
+  // changes: masks of LAMMPS' arrays that the bodies may write to
+
+  FoamKokkos(LAMMPS *lmp, uint64_t changes)
+      : Pointers(lmp), atomKK(dynamic_cast<AtomKokkos *>(atom)), written(changes),
+        sums_there("foam:sums")
+  {
+  }
+
+  Bubbles bubbles() const
+  {
+    atomKK->sync(SPACE, X_MASK | V_MASK | F_MASK | RADIUS_MASK | TYPE_MASK | TAG_MASK);
+    atomKK->modified(SPACE, written);
+    return {atomKK->k_x.view<DeviceType>(),    atomKK->k_v.view<DeviceType>(),
+            atomKK->k_f.view<DeviceType>(),    atomKK->k_radius.view<DeviceType>(),
+            atomKK->k_type.view<DeviceType>(), atomKK->k_tag.view<DeviceType>()};
+  }
+  static double *column(FoamColumns &columns, int c) { return columns.on_device(c); }
+  static void keep(FoamColumns &columns)
+  {
+    columns.keep_in(std::make_unique<FoamKokkosStorage<DeviceType>>());
+  }
+
+  template <class Body> void for_each(int n, const Body &body) const
+  {
+    Kokkos::parallel_for(Body::NAME, Kokkos::RangePolicy<DeviceType>(0, n), body);
+  }
+
+  // the host waits for these
+
+  template <class Value, class Body> Value reduce(int n, const Body &body) const
+  {
+    Value mine;
+    Kokkos::parallel_reduce(Body::NAME, Kokkos::RangePolicy<DeviceType>(0, n), body,
+                            FoamJoin<Value, Kokkos::HostSpace>(&mine));
+    return mine;
+  }
+  template <class Body> FoamTotals totals(int n, const Body &body) const
+  {
+    return reduce<FoamTotals>(n, body);
+  }
+
+  // Sums over all ranks. Those of a single rank with a device stay there.
+
+  template <class Body> Foam::Sums sums(int n, const Body &body) const
+  {
+    Foam::Sums all;
+    int nprocs;
+    MPI_Comm_size(world, &nprocs);
+    if (ON_HOST || nprocs > 1) {
+      const auto mine = reduce<Foam::SumsOfOne>(n, body);
+      MPI_Allreduce(mine.sum, all.known, 4, MPI_DOUBLE, MPI_SUM, world);
+    } else {
+      Foam::SumsOfOne *const there = &sums_there(Body::SLOT);
+      Kokkos::parallel_reduce(Body::NAME, Kokkos::RangePolicy<DeviceType>(0, n), body,
+                              FoamJoin<Foam::SumsOfOne, typename DeviceType::memory_space>(there));
+      all.elsewhere = there->sum;
+    }
+    return all;
+  }
+  static void fetch(const double *elsewhere, double *sum)
+  {
+    using Here = Kokkos::View<double[4], Kokkos::HostSpace, Kokkos::MemoryUnmanaged>;
+    using There =
+        Kokkos::View<const double[4], typename DeviceType::memory_space, Kokkos::MemoryUnmanaged>;
+    Kokkos::deep_copy(Here(sum), There(elsewhere));
+  }
+
+ private:
+  AtomKokkos *atomKK;
+  uint64_t written;
+  Kokkos::View<Foam::SumsOfOne[2], DeviceType> sums_there;
+};
+
+}    // namespace LAMMPS_NS
+
+#endif

@@ -1,0 +1,394 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   This software is distributed under the GNU General Public License.
+   Wet-foam package: see the README file of the package.
+------------------------------------------------------------------------- */
+
+#include "pair_durian_foam_kokkos.h"
+
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+#include "force.h"
+#include "kokkos.h"
+#include "memory_kokkos.h"
+#include "neigh_request.h"
+#include "neighbor.h"
+
+using namespace LAMMPS_NS;
+
+/* ---------------------------------------------------------------------- */
+
+template <class DeviceType>
+PairDurianFoamKokkos<DeviceType>::PairDurianFoamKokkos(LAMMPS *lmp)
+    : PairDurianFoam(lmp), here(lmp, F_MASK)
+{
+  kokkosable = 1;
+  execution_space = ExecutionSpaceFromDevice<DeviceType>::space;
+  datamask_read = X_MASK | V_MASK | F_MASK | RADIUS_MASK | TYPE_MASK | TAG_MASK;
+  datamask_modify = F_MASK | ENERGY_MASK | VIRIAL_MASK;
+  list_flags |= NeighConst::REQ_NEWTON_OFF;
+  for (FoamColumns *sums : {&contacts, &vsum, &area, &film, &energies}) here.keep(*sums);
+}
+
+template <class DeviceType> PairDurianFoamKokkos<DeviceType>::~PairDurianFoamKokkos()
+{
+  memoryKK->destroy_kokkos(k_eatom, eatom);
+  memoryKK->destroy_kokkos(k_vatom, vatom);
+}
+
+template <class DeviceType> void PairDurianFoamKokkos<DeviceType>::init_style()
+{
+  PairDurianFoam::init_style();
+  auto *request = neighbor->find_request(this);
+  request->set_kokkos_host(std::is_same_v<DeviceType, LMPHostType> &&
+                           !std::is_same_v<DeviceType, LMPDeviceType>);
+  request->set_kokkos_device(std::is_same_v<DeviceType, LMPDeviceType>);
+  rows_known = false;
+
+  // Forces of owned bubbles only, written and not added to: then LAMMPS need not clear them first
+
+  fuse_force_clear_flag = !force->newton && !utils::strmatch(force->pair_style, "^hybrid");
+}
+
+template <class DeviceType>
+void PairDurianFoamKokkos<DeviceType>::compute(int eflag, int vflag)
+{
+  ev_init(eflag, vflag, 0);
+  if (eflag_atom) {
+    memoryKK->destroy_kokkos(k_eatom, eatom);
+    memoryKK->create_kokkos(k_eatom, eatom, maxeatom, "pair:eatom");
+  }
+  if (vflag_atom) {
+    memoryKK->destroy_kokkos(k_vatom, vatom);
+    memoryKK->create_kokkos(k_vatom, vatom, maxvatom, "pair:vatom");
+  }
+
+  gather(Foam::FORCE | (neighbor_drag ? Foam::DRAG : 0u) | gas_wanted);
+
+  if (eflag_atom) {
+    k_eatom.template modify<DeviceType>();
+    k_eatom.sync_host();
+  }
+  if (vflag_atom) {
+    k_vatom.template modify<DeviceType>();
+    k_vatom.sync_host();
+  }
+}
+
+/* ----------------------------------------------------------------------
+   rows of pairs from LAMMPS' list
+------------------------------------------------------------------------- */
+
+namespace {
+
+// The list has a pair of owned bubbles once, in the row of either; one of an owned bubble and a
+// ghost in the owned one's.
+
+template <class DeviceType> struct ListedPairs {
+  using AT = ArrayTypes<DeviceType>;
+  typename AT::t_int_1d ilist, numneigh;
+  typename AT::t_neighbors_2d neighbors;
+  FoamRows<DeviceType> rows;
+  typename FoamRows<DeviceType>::Numbers filled;    // single pairs of a row so far
+  int nlocal, chunk;
+
+  KOKKOS_INLINE_FUNCTION bool within_chunk(int i, int j) const
+  {
+    return chunk > 1 && j < nlocal && i / chunk == j / chunk;
+  }
+};
+
+template <class DeviceType> struct CountPairs : ListedPairs<DeviceType> {
+  static constexpr const char *NAME = "foam: count pairs";
+  KOKKOS_INLINE_FUNCTION void operator()(int n) const
+  {
+    const int i = this->ilist(n), size = this->numneigh(i);
+    int shared = 0, single = 0;
+    for (int m = 0; m < size; m++) {
+      const int j = this->neighbors(i, m) & NEIGHMASK;
+      if (this->within_chunk(i, j))
+        shared++;
+      else {
+        single++;
+        if (j < this->nlocal) Kokkos::atomic_inc(&this->filled(j));
+      }
+    }
+    this->rows.shared(i) = shared;
+    Kokkos::atomic_add(&this->filled(i), single);
+  }
+};
+
+template <class DeviceType> struct PlaceRows : ListedPairs<DeviceType> {
+  using value_type = int;
+  KOKKOS_INLINE_FUNCTION void operator()(int i, int &begin, bool final) const
+  {
+    const int size = i < this->nlocal ? this->rows.shared(i) + this->filled(i) : 0;
+    if (final) {
+      this->rows.first(i) = begin;
+      if (i < this->nlocal) this->filled(i) = 0;
+    }
+    begin += size;
+  }
+};
+
+template <class DeviceType> struct FillRows : ListedPairs<DeviceType> {
+  static constexpr const char *NAME = "foam: fill rows";
+  KOKKOS_INLINE_FUNCTION void operator()(int n) const
+  {
+    const int i = this->ilist(n), size = this->numneigh(i);
+    int shared = 0;
+    for (int m = 0; m < size; m++) {
+      const int j = this->neighbors(i, m) & NEIGHMASK;
+      if (this->within_chunk(i, j))
+        this->rows.partner(this->rows.first(i) + shared++) = j;
+      else {
+        append(i, j);
+        if (j < this->nlocal) append(j, i);
+      }
+    }
+  }
+  KOKKOS_INLINE_FUNCTION void append(int i, int j) const
+  {
+    const int place = Kokkos::atomic_fetch_inc(&this->filled(i));
+    this->rows.partner(this->rows.first(i) + this->rows.shared(i) + place) = j;
+  }
+};
+
+// threads fill a row in any order: in order of partners, sums come out the same every time
+
+template <class DeviceType> struct SortRows : ListedPairs<DeviceType> {
+  static constexpr const char *NAME = "foam: sort rows";
+  KOKKOS_INLINE_FUNCTION void operator()(int i) const
+  {
+    const int begin = this->rows.first(i), end = this->rows.first(i + 1);
+    sort(begin, begin + this->rows.shared(i));
+    sort(begin + this->rows.shared(i), end);
+  }
+  KOKKOS_INLINE_FUNCTION void sort(int begin, int end) const
+  {
+    for (int m = begin + 1; m < end; m++) {
+      const int j = this->rows.partner(m);
+      int k = m;
+      for (; k > begin && this->rows.partner(k - 1) > j; k--)
+        this->rows.partner(k) = this->rows.partner(k - 1);
+      this->rows.partner(k) = j;
+    }
+  }
+};
+
+}    // namespace
+
+template <class DeviceType> void PairDurianFoamKokkos<DeviceType>::look_at_list()
+{
+  if (!rows_known) {    // coefficients too may be new
+    const int n = (atom->ntypes + 1) * (atom->ntypes + 1);
+    sigma0_there = Kokkos::View<double *, DeviceType>("durian/foam:sigma0", n);
+    Kokkos::deep_copy(
+        sigma0_there,
+        Kokkos::View<double *, Kokkos::HostSpace, Kokkos::MemoryUnmanaged>(sigma0[0], n));
+  }
+  if (rows_known && rows_ncalls == neighbor->ncalls && rows_lastcall == neighbor->lastcall) return;
+  make_rows();
+  rows_known = true;
+  rows_ncalls = neighbor->ncalls;
+  rows_lastcall = neighbor->lastcall;
+}
+
+template <class DeviceType> void PairDurianFoamKokkos<DeviceType>::make_rows()
+{
+  const int nlocal = atom->nlocal;
+  const bool halves = FoamKokkos<DeviceType>::ON_HOST && lmp->kokkos->neighflag != FULL;
+  const int threads = halves ? DeviceType().concurrency() : nlocal;
+  chunk = MAX(1, (nlocal + threads - 1) / MAX(1, threads));
+
+  if (static_cast<int>(rows.shared.extent(0)) < nlocal || rows.first.extent(0) == 0) {
+    rows.first = typename FoamRows<DeviceType>::Numbers("durian/foam:first", atom->nmax + 1);
+    rows.shared = typename FoamRows<DeviceType>::Numbers("durian/foam:shared", atom->nmax);
+  } else
+    Kokkos::deep_copy(DeviceType(), rows.shared, 0);
+
+  auto *listed = static_cast<NeighListKokkos<DeviceType> *>(list);
+  const ListedPairs<DeviceType> pairs{
+      listed->d_ilist,
+      listed->d_numneigh,
+      listed->d_neighbors,
+      rows,
+      typename FoamRows<DeviceType>::Numbers("durian/foam:filled", nlocal),
+      nlocal,
+      chunk};
+
+  here.for_each(list->inum, CountPairs<DeviceType>{pairs});
+  int total = 0;
+  Kokkos::parallel_scan("foam: place rows", Kokkos::RangePolicy<DeviceType>(0, nlocal + 1),
+                        PlaceRows<DeviceType>{pairs}, total);
+  if (static_cast<int>(rows.partner.extent(0)) < total)
+    rows.partner = typename FoamRows<DeviceType>::Numbers(
+        Kokkos::view_alloc("durian/foam:partner", Kokkos::WithoutInitializing),
+        static_cast<size_t>(1.1 * total));
+  ListedPairs<DeviceType> placed = pairs;
+  placed.rows = rows;
+  here.for_each(list->inum, FillRows<DeviceType>{placed});
+  here.for_each(nlocal, SortRows<DeviceType>{placed});
+}
+
+/* ----------------------------------------------------------------------
+   one pass over the rows
+------------------------------------------------------------------------- */
+
+namespace {
+
+struct EnergyVirial {
+  double energy = 0.0, virial[6] = {};
+  KOKKOS_INLINE_FUNCTION void join(const EnergyVirial &other)
+  {
+    energy += other.energy;
+    for (int k = 0; k < 6; k++) virial[k] += other.virial[k];
+  }
+};
+
+// what is asked for of each pair; one end of it counts half
+
+template <class DeviceType> struct KokkosTally {
+  static constexpr bool ON = true;
+  using AT = ArrayTypes<DeviceType>;
+  EnergyVirial *all;
+  bool e_atom, v_atom;
+  typename AT::t_kkacc_1d eatom;
+  typename AT::t_kkacc_1d_6 vatom;
+
+  KOKKOS_INLINE_FUNCTION void pair(int i, int j, bool both, double energy, double F_over_r,
+                                   const double *del) const
+  {
+    const double share = both ? 1.0 : 0.5;
+    const double v[6] = {F_over_r * del[0] * del[0], F_over_r * del[1] * del[1],
+                         F_over_r * del[2] * del[2], F_over_r * del[0] * del[1],
+                         F_over_r * del[0] * del[2], F_over_r * del[1] * del[2]};
+    all->energy += share * energy;
+    for (int k = 0; k < 6; k++) all->virial[k] += share * v[k];
+    if (e_atom) {
+      eatom(i) += 0.5 * energy;
+      if (both) eatom(j) += 0.5 * energy;
+    }
+    if (v_atom)
+      for (int k = 0; k < 6; k++) {
+        vatom(i, k) += 0.5 * v[k];
+        if (both) vatom(j, k) += 0.5 * v[k];
+      }
+  }
+};
+
+// Bodies for a bubble or, where pairs occur once, for a chunk of them. Forces are written over if
+// LAMMPS has not cleared them.
+
+template <unsigned WHAT, class Loop, class Tally>
+KOKKOS_INLINE_FUNCTION void do_chunk(const Loop &loop, int c, int chunk, int nlocal, bool clear,
+                                     Tally &tally)
+{
+  const int begin = c * chunk, end = begin + chunk < nlocal ? begin + chunk : nlocal;
+  for (int i = begin; i < end; i++) {
+    loop.sums.template clear<WHAT>(i);
+    if constexpr (WHAT & Foam::FORCE)
+      if (clear)
+        for (int k = 0; k < 3; k++) loop.b.f(i, k) = 0.0;
+  }
+  for (int i = begin; i < end; i++) loop(i, tally);
+}
+
+template <unsigned WHAT, bool CHUNKS, class Loop> struct Contacts {
+  static constexpr const char *NAME = "foam: contacts";
+  Loop loop;
+  int chunk, nlocal;
+  bool clear;
+  KOKKOS_INLINE_FUNCTION void operator()(int n) const
+  {
+    Foam::NoTally none;
+    if constexpr (CHUNKS)
+      do_chunk<WHAT>(loop, n, chunk, nlocal, clear, none);
+    else
+      loop(n, none);
+  }
+};
+
+template <unsigned WHAT, bool CHUNKS, class Loop, class DeviceType> struct TalliedContacts {
+  static constexpr const char *NAME = "foam: contacts, energy and virial";
+  Loop loop;
+  int chunk, nlocal;
+  bool clear;
+  KokkosTally<DeviceType> tally;
+  KOKKOS_INLINE_FUNCTION void operator()(int n, EnergyVirial &all) const
+  {
+    KokkosTally<DeviceType> mine = tally;
+    mine.all = &all;
+    if constexpr (CHUNKS)
+      do_chunk<WHAT>(loop, n, chunk, nlocal, clear, mine);
+    else
+      loop(n, mine);
+  }
+};
+
+}    // namespace
+
+template <class DeviceType> void PairDurianFoamKokkos<DeviceType>::gather_contacts(unsigned what)
+{
+  look_at_list();
+  const bool flat = domain->dimension == 2;
+  const bool done = Foam::for_each_gathered(
+      what, [&]<unsigned WHAT>() { flat ? gather_in<2, WHAT>() : gather_in<3, WHAT>(); });
+  if (!done) error->one(FLERR, "Pair style durian/foam: no loop gathers {}", what);
+}
+
+template <class DeviceType>
+template <int D, unsigned WHAT>
+void PairDurianFoamKokkos<DeviceType>::gather_in()
+{
+  using B = FoamKokkosBubbles<DeviceType>;
+  using Rows = FoamRows<DeviceType>;
+  const int nlocal = atom->nlocal;
+  const bool clear = fuse_force_clear_flag;
+  const Foam::Springs springs{sigma0_there.data(), atom->ntypes, rin};
+  const Foam::ContactSums sums = contact_sums(here);
+
+  auto run = [&]<bool CHUNKS>() {
+    const int n = CHUNKS ? (nlocal + chunk - 1) / chunk : nlocal;
+    if constexpr (WHAT & Foam::FORCE) {
+      if (evflag) {
+        using Tally = KokkosTally<DeviceType>;
+        using Loop = Foam::ContactLoop<D, WHAT, !CHUNKS, B, Rows, Tally>;
+        const Loop loop{here.bubbles(), rows, springs, sums, !clear};
+        const Tally tally{nullptr, eflag_atom != 0, vflag_atom != 0,
+                          k_eatom.template view<DeviceType>(), k_vatom.template view<DeviceType>()};
+        const auto all = here.template reduce<EnergyVirial>(
+            n, TalliedContacts<WHAT, CHUNKS, Loop, DeviceType>{loop, chunk, nlocal, clear, tally});
+        if (eflag_global) eng_vdwl += all.energy;
+        if (vflag_global)
+          for (int k = 0; k < 6; k++) virial[k] += all.virial[k];
+        return;
+      }
+    }
+    using Loop = Foam::ContactLoop<D, WHAT, !CHUNKS, B, Rows, Foam::NoTally>;
+    const Loop loop{here.bubbles(), rows, springs, sums, !clear};
+    here.for_each(n, Contacts<WHAT, CHUNKS, Loop>{loop, chunk, nlocal, clear});
+  };
+  if constexpr (FoamKokkos<DeviceType>::ON_HOST) {
+    if (chunk > 1) return run.template operator()<true>();
+  }
+  run.template operator()<false>();
+}
+
+template <class DeviceType> double PairDurianFoamKokkos<DeviceType>::memory_usage()
+{
+  return PairDurianFoam::memory_usage() +
+         sizeof(int) *
+             double(rows.first.extent(0) + rows.shared.extent(0) + rows.partner.extent(0));
+}
+
+namespace LAMMPS_NS {
+template class PairDurianFoamKokkos<LMPDeviceType>;
+#ifdef LMP_KOKKOS_GPU
+template class PairDurianFoamKokkos<LMPHostType>;
+#endif
+}    // namespace LAMMPS_NS
