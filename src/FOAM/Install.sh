@@ -7,8 +7,11 @@
 #   sh src/FOAM/Install.sh 1 /path/to/lammps/src
 
 mode=${1:-1}
+to=..
+if [ "$2" ]; then
+  to=$(cd "$2" && pwd) || exit 1    # before we leave the directory that it is relative to
+fi
 cd "$(dirname "$0")" || exit 1
-to=${2:-..}
 if [ ! -e "$to/lammps.h" ]; then
   echo "Install.sh: $to is not the src/ directory of LAMMPS (no lammps.h in it)" >&2
   exit 1
