@@ -146,6 +146,19 @@ void FixFoamIntegrate::init()
                      "use its style variable, with the time of fix {}",
                      style, style);
   }
+
+  // styles of a device hold their numbers there
+
+  auto elsewhere = [&](const char *what, const char *its_style, int its_kokkosable, int its_space) {
+    if (its_kokkosable != kokkosable || (kokkosable && its_space != execution_space))
+      error->all(FLERR,
+                 "Fix {} and {} {} must run in the same place: use the suffix kk for all styles "
+                 "of the foam or for none",
+                 style, what, its_style);
+  };
+  elsewhere("pair style", "durian/foam", pair->kokkosable, pair->execution_space);
+  if (gas) elsewhere("fix", gas->style, gas->kokkosable, gas->execution_space);
+
   if (rin_kept > 0.0) pair->keep_means(rin_kept, ain_kept);
   if (integrators > 1)
     error->all(FLERR, "Fix {} must be the only fix that integrates in time", style);

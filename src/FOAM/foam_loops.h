@@ -43,8 +43,8 @@ struct HostBubbles {
   Values<int> type;
   Values<LAMMPS_NS::tagint> tag;
 
-  double place(int i, int k) const { return x(i, k); }
-  void put(int i, int k, double value) const { x(i, k) = value; }
+  FOAM_FUNCTION double place(int i, int k) const { return x(i, k); }
+  FOAM_FUNCTION void put(int i, int k, double value) const { x(i, k) = value; }
 };
 
 // What one pass over the contacts gathers

@@ -36,6 +36,7 @@ class FoamReduce {
  public:
   explicit FoamReduce(MPI_Comm comm) : world(comm)
   {
+    MPI_Comm_size(world, &ranks);
     MPI_Type_contiguous(sizeof(FoamTotals) / sizeof(double), MPI_DOUBLE, &type);
     MPI_Type_commit(&type);
     MPI_Op_create(&combine, 1, &op);
@@ -48,8 +49,9 @@ class FoamReduce {
     MPI_Type_free(&type);
   }
 
-  FoamTotals operator()(const FoamTotals &mine) const
+  FoamTotals operator()(FoamTotals mine) const
   {
+    if (ranks == 1) return mine;
     FoamTotals all;
     MPI_Allreduce(&mine, &all, 1, type, op, world);
     return all;
@@ -57,6 +59,7 @@ class FoamReduce {
 
  private:
   MPI_Comm world;
+  int ranks;
   MPI_Datatype type;
   MPI_Op op;
 

@@ -22,6 +22,53 @@
 
 namespace LAMMPS_NS {
 
+// Columns that travel with the bubbles: in a buffer, one bubble after the other
+
+struct FoamTravelling {
+  static constexpr int MOST = 16;
+  int count;
+  double *column[MOST];
+};
+
+template <class DeviceType> struct FoamPackExchange {
+  static constexpr const char *NAME = "foam: pack exchange";
+  FoamTravelling all;
+  double *buf;
+  typename ArrayTypes<DeviceType>::t_int_1d sendlist, copylist;
+  KOKKOS_INLINE_FUNCTION void operator()(int n) const
+  {
+    const int i = sendlist(n), j = copylist(n);
+    for (int c = 0; c < all.count; c++) {
+      buf[static_cast<size_t>(n) * all.count + c] = all.column[c][i];
+      if (j >= 0) all.column[c][i] = all.column[c][j];    // fills the gap
+    }
+  }
+};
+
+// the second message of two begins at next, with bubble number nfirst
+
+template <class DeviceType> struct FoamUnpackExchange {
+  static constexpr const char *NAME = "foam: unpack exchange";
+  FoamTravelling all;
+  const double *buf;
+  typename ArrayTypes<DeviceType>::t_int_1d indices;
+  int nfirst, next;
+  KOKKOS_INLINE_FUNCTION void operator()(int n) const
+  {
+    const int i = indices(n);
+    if (i < 0) return;    // not for this rank
+    const size_t before = n < nfirst ? n : n - nfirst;
+    const double *const from = buf + (n < nfirst ? 0 : next) + before * all.count;
+    for (int c = 0; c < all.count; c++) all.column[c][i] = from[c];
+  }
+};
+
+template <class DeviceType> struct FoamClearForces {
+  static constexpr const char *NAME = "foam: clear forces";
+  typename ArrayTypes<DeviceType>::t_kkacc_1d_3 f;
+  KOKKOS_INLINE_FUNCTION void operator()(int i) const { f(i, 0) = f(i, 1) = f(i, 2) = 0.0; }
+};
+
 // An integrator of a foam on a device: Style, such as FixFoamABM, with its loops there, and its
 // columns travelling with the bubbles without a detour to the host.
 
@@ -48,22 +95,22 @@ class FixFoamIntegrateKokkos : public Style, public KokkosBase {
     k_buf.sync<DeviceType>();
     k_sendlist.sync<DeviceType>();
     k_copylist.sync<DeviceType>();
-    const Travelling all = travelling();
-    here.for_each(nsend, Pack{all, k_buf.view<DeviceType>().data(), k_sendlist.view<DeviceType>(),
-                              k_copylist.view<DeviceType>()});
+    const FoamTravelling all = travelling();
+    here.for_each(nsend, FoamPackExchange<DeviceType>{all, k_buf.view<DeviceType>().data(),
+                                                      k_sendlist.view<DeviceType>(),
+                                                      k_copylist.view<DeviceType>()});
     k_buf.modify<DeviceType>();
     return nsend * all.count;
   }
-
-  // the second message of two begins at nextrarecv1, with the bubbles from nrecv1 on
 
   void unpack_exchange_kokkos(DAT::tdual_double_2d_lr &k_buf, DAT::tdual_int_1d &k_indices,
                               int nrecv, int nrecv1, int nextrarecv1, ExecutionSpace) override
   {
     k_buf.sync<DeviceType>();
     k_indices.sync<DeviceType>();
-    here.for_each(nrecv, Unpack{travelling(), k_buf.view<DeviceType>().data(),
-                                k_indices.view<DeviceType>(), nrecv1, nextrarecv1});
+    here.for_each(
+        nrecv, FoamUnpackExchange<DeviceType>{travelling(), k_buf.view<DeviceType>().data(),
+                                              k_indices.view<DeviceType>(), nrecv1, nextrarecv1});
   }
 
   void sort_kokkos(Kokkos::BinSort<KeyViewType, BinOp> &sorter) override
@@ -116,63 +163,19 @@ class FixFoamIntegrateKokkos : public Style, public KokkosBase {
   }
 
  private:
-  struct Travelling {    // all columns that are in use
-    static constexpr int MOST = 16;
-    int count;
-    double *column[MOST];
-  };
-  Travelling travelling()
+  FoamTravelling travelling()
   {
-    Travelling all{0, {}};
+    FoamTravelling all{0, {}};
     for (FoamColumns *columns : {&this->columns, &this->lags})
       for (int c = 0; c < columns->active(); c++) all.column[all.count++] = columns->on_device(c);
     return all;
   }
 
-  using Numbers = typename ArrayTypes<DeviceType>::t_int_1d;
-
-  struct Pack {
-    static constexpr const char *NAME = "foam: pack exchange";
-    Travelling all;
-    double *buf;
-    Numbers sendlist, copylist;
-    KOKKOS_INLINE_FUNCTION void operator()(int n) const
-    {
-      const int i = sendlist(n), j = copylist(n);
-      for (int c = 0; c < all.count; c++) {
-        buf[static_cast<size_t>(n) * all.count + c] = all.column[c][i];
-        if (j >= 0) all.column[c][i] = all.column[c][j];    // fills the gap
-      }
-    }
-  };
-
-  struct Unpack {
-    static constexpr const char *NAME = "foam: unpack exchange";
-    Travelling all;
-    const double *buf;
-    Numbers indices;
-    int nrecv1, nextrarecv1;
-    KOKKOS_INLINE_FUNCTION void operator()(int n) const
-    {
-      const int i = indices(n);
-      if (i < 0) return;    // not for this rank
-      const double *from = n < nrecv1
-                               ? buf + static_cast<size_t>(n) * all.count
-                               : buf + nextrarecv1 + static_cast<size_t>(n - nrecv1) * all.count;
-      for (int c = 0; c < all.count; c++) all.column[c][i] = from[c];
-    }
-  };
-
-  struct Clear {
-    static constexpr const char *NAME = "foam: clear forces";
-    typename ArrayTypes<DeviceType>::t_kkacc_1d_3 f;
-    KOKKOS_INLINE_FUNCTION void operator()(int i) const { f(i, 0) = f(i, 1) = f(i, 2) = 0.0; }
-  };
   void clear_forces()
   {
     atomKK->k_f.clear_sync_state();
     here.for_each(this->atom->nlocal + (this->force->newton ? this->atom->nghost : 0),
-                  Clear{atomKK->k_f.view<DeviceType>()});
+                  FoamClearForces<DeviceType>{atomKK->k_f.view<DeviceType>()});
     atomKK->modified(FoamKokkos<DeviceType>::SPACE, F_MASK);
   }
 };

@@ -145,7 +145,7 @@ template <class DeviceType> class FoamKokkos : protected Pointers {
     int nprocs;
     MPI_Comm_size(world, &nprocs);
     if (ON_HOST || nprocs > 1) {
-      const auto mine = reduce<Foam::SumsOfOne>(n, body);
+      auto mine = reduce<Foam::SumsOfOne>(n, body);
       MPI_Allreduce(mine.sum, all.known, 4, MPI_DOUBLE, MPI_SUM, world);
     } else {
       Foam::SumsOfOne *const there = &sums_there(Body::SLOT);
