@@ -93,7 +93,7 @@ FixFoamIntegrate::FixFoamIntegrate(LAMMPS *lmp, int narg, char **arg)
   restart_global = 1;
   restart_peratom = 1;
   create_attribute = 1;
-  maxexchange = columns.capacity() + lags.capacity();
+  maxexchange = maxsize_restart() - 1;
   columns.use(atom->nmax);
   atom->add_callback(Atom::GROW);
   atom->add_callback(Atom::RESTART);
@@ -808,22 +808,19 @@ double FixFoamIntegrate::compute_vector(int n)
 
 void FixFoamIntegrate::grow_arrays(int nmax)
 {
-  columns.grow(nmax);
-  lags.grow(nmax);
+  for (FoamColumns *all : travelling()) all->grow(nmax);
 }
 
 void FixFoamIntegrate::copy_arrays(int i, int j, int)
 {
-  columns.copy(i, j);
-  lags.copy(i, j);
+  for (FoamColumns *all : travelling()) all->copy(i, j);
 }
 
 // a new bubble, of the radius that it has so far: see check_bubbles()
 
 void FixFoamIntegrate::set_arrays(int i)
 {
-  columns.clear(i);
-  lags.clear(i);
+  for (FoamColumns *all : travelling()) all->clear(i);
   if (!atom->radius_flag) return;
   const double R = atom->radius[i];
   columns[Q][i] = dim == 2 ? Foam::q_of<2>(variable, R) : Foam::q_of<3>(variable, R);
@@ -831,14 +828,16 @@ void FixFoamIntegrate::set_arrays(int i)
 
 int FixFoamIntegrate::pack_exchange(int i, double *buf)
 {
-  const int m = columns.pack(i, buf);
-  return m + lags.pack(i, buf + m);
+  int m = 0;
+  for (FoamColumns *all : travelling()) m += all->pack(i, buf + m);
+  return m;
 }
 
 int FixFoamIntegrate::unpack_exchange(int i, double *buf)
 {
-  const int m = columns.unpack(i, buf);
-  return m + lags.unpack(i, buf + m);
+  int m = 0;
+  for (FoamColumns *all : travelling()) m += all->unpack(i, buf + m);
+  return m;
 }
 
 int FixFoamIntegrate::pack_restart(int i, double *buf)
@@ -857,20 +856,22 @@ void FixFoamIntegrate::unpack_restart(int i, int nth)
   for (int m = 0; m < nth; m++) extra += static_cast<int>(*extra);
   const int count = static_cast<int>(*extra++) - 1;
   extra += columns.unpack(i, extra);
-  if (count > columns.active()) {
+  const int rest = count - columns.active();    // lags, low or both, whichever was in use
+  if (rest >= lags.capacity()) {
     if (!lags.in_use()) lags.use(atom->nmax);
-    lags.unpack(i, extra);
+    extra += lags.unpack(i, extra);
   }
+  if (rest % lags.capacity() == low.capacity()) low.unpack(i, extra);    // if of use here, too
 }
 
 int FixFoamIntegrate::size_restart(int)
 {
-  return 1 + columns.active() + lags.active();
+  return 1 + columns.active() + lags.active() + low.active();
 }
 
 int FixFoamIntegrate::maxsize_restart()
 {
-  return 1 + columns.capacity() + lags.capacity();
+  return 1 + columns.capacity() + lags.capacity() + low.capacity();
 }
 
 void FixFoamIntegrate::write_restart(FILE *fp)

@@ -14,6 +14,8 @@
 #include "fix_foam_coarsen.h"
 #include "foam_host.h"
 
+#include <array>
+
 namespace LAMMPS_NS {
 
 // What every integrator of a foam shares; a scheme, such as FixFoamABM, adds its formula.
@@ -94,6 +96,13 @@ class FixFoamIntegrate : public Fix {
 
   enum { LAGX, LAGY, LAGZ, LASTX, LASTY, LASTZ, NLAGS };
   FoamColumns lags{NLAGS};
+
+  // what LAMMPS' own coordinates lack of these in double precision, if it keeps less: see
+  // FoamKokkosBubbles. A sum of many small steps would drown in them.
+
+  FoamColumns low{3};
+
+  std::array<FoamColumns *, 3> travelling() { return {&columns, &lags, &low}; }
 
   // per bubble, of one step or one neighbor list
 

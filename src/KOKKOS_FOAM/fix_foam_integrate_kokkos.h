@@ -83,9 +83,13 @@ class FixFoamIntegrateKokkos : public Style, public KokkosBase {
     this->exchange_comm_device = this->sort_device = 1;
     this->execution_space = FoamKokkos<DeviceType>::SPACE;
     this->datamask_read = this->datamask_modify = EMPTY_MASK;    // the loops see to it
-    for (FoamColumns *c :
-         {&this->columns, &this->lags, &this->start, &this->v_start, &this->listed, &this->next})
+    for (FoamColumns *c : {&this->columns, &this->lags, &this->low, &this->start, &this->v_start,
+                           &this->listed, &this->next})
       here.keep(*c);
+    if (std::is_same_v<KK_FLOAT, float>) {
+      this->low.use(lmp->atom->nmax);
+      here.low = &this->low;
+    }
   }
 
   int pack_exchange_kokkos(const int &nsend, DAT::tdual_double_2d_lr &k_buf,
@@ -95,7 +99,7 @@ class FixFoamIntegrateKokkos : public Style, public KokkosBase {
     k_buf.sync<DeviceType>();
     k_sendlist.sync<DeviceType>();
     k_copylist.sync<DeviceType>();
-    const FoamTravelling all = travelling();
+    const FoamTravelling all = travelling_there();
     here.for_each(nsend, FoamPackExchange<DeviceType>{all, k_buf.view<DeviceType>().data(),
                                                       k_sendlist.view<DeviceType>(),
                                                       k_copylist.view<DeviceType>()});
@@ -109,13 +113,13 @@ class FixFoamIntegrateKokkos : public Style, public KokkosBase {
     k_buf.sync<DeviceType>();
     k_indices.sync<DeviceType>();
     here.for_each(
-        nrecv, FoamUnpackExchange<DeviceType>{travelling(), k_buf.view<DeviceType>().data(),
+        nrecv, FoamUnpackExchange<DeviceType>{travelling_there(), k_buf.view<DeviceType>().data(),
                                               k_indices.view<DeviceType>(), nrecv1, nextrarecv1});
   }
 
   void sort_kokkos(Kokkos::BinSort<KeyViewType, BinOp> &sorter) override
   {
-    for (FoamColumns *columns : {&this->columns, &this->lags})
+    for (FoamColumns *columns : this->travelling())
       for (int c = 0; c < columns->active(); c++) {
         using Column = Kokkos::View<double *, LMPDeviceType, Kokkos::MemoryUnmanaged>;
         sorter.sort(LMPDeviceType(), Column(columns->on_device(c), columns->rows()));
@@ -163,10 +167,10 @@ class FixFoamIntegrateKokkos : public Style, public KokkosBase {
   }
 
  private:
-  FoamTravelling travelling()
+  FoamTravelling travelling_there()
   {
     FoamTravelling all{0, {}};
-    for (FoamColumns *columns : {&this->columns, &this->lags})
+    for (FoamColumns *columns : this->travelling())
       for (int c = 0; c < columns->active(); c++) all.column[all.count++] = columns->on_device(c);
     return all;
   }

@@ -54,7 +54,8 @@ template <class DeviceType> class FoamKokkosStorage : public FoamStorage {
   Block block;
 };
 
-// LAMMPS' bubbles on the device, in its precision: see Foam::HostBubbles
+// LAMMPS' bubbles on the device, in its precision (KOKKOS_PREC): see Foam::HostBubbles. Where that
+// is single, an integrator keeps what coordinates have beyond it in columns of its own.
 
 template <class DeviceType> struct FoamKokkosBubbles {
   using AT = ArrayTypes<DeviceType>;
@@ -65,8 +66,19 @@ template <class DeviceType> struct FoamKokkosBubbles {
   typename AT::t_int_1d type;
   typename AT::t_tagint_1d tag;
 
-  KOKKOS_INLINE_FUNCTION double place(int i, int k) const { return x(i, k); }
-  KOKKOS_INLINE_FUNCTION void put(int i, int k, double value) const { x(i, k) = value; }
+  double *low[3];
+
+  static constexpr bool DOUBLE = std::is_same_v<KK_FLOAT, double>;
+
+  KOKKOS_INLINE_FUNCTION double place(int i, int k) const
+  {
+    return DOUBLE || !low[k] ? x(i, k) : x(i, k) + low[k][i];
+  }
+  KOKKOS_INLINE_FUNCTION void put(int i, int k, double value) const
+  {
+    x(i, k) = value;
+    if (!DOUBLE && low[k]) low[k][i] = value - x(i, k);
+  }
 };
 
 // Reduction of what has a join(), to the host or, without waiting for it, to memory of the device
@@ -108,9 +120,13 @@ template <class DeviceType> class FoamKokkos : protected Pointers {
   {
     atomKK->sync(SPACE, X_MASK | V_MASK | F_MASK | RADIUS_MASK | TYPE_MASK | TAG_MASK);
     atomKK->modified(SPACE, written);
+    auto low_at = [&](int k) {
+      return low ? low->on_device(k) : nullptr;
+    };
     return {atomKK->k_x.view<DeviceType>(),    atomKK->k_v.view<DeviceType>(),
             atomKK->k_f.view<DeviceType>(),    atomKK->k_radius.view<DeviceType>(),
-            atomKK->k_type.view<DeviceType>(), atomKK->k_tag.view<DeviceType>()};
+            atomKK->k_type.view<DeviceType>(), atomKK->k_tag.view<DeviceType>(),
+            {low_at(0), low_at(1), low_at(2)}};
   }
   static double *column(FoamColumns &columns, int c) { return columns.on_device(c); }
   static void keep(FoamColumns &columns)
@@ -162,6 +178,8 @@ template <class DeviceType> class FoamKokkos : protected Pointers {
         Kokkos::View<const double[4], typename DeviceType::memory_space, Kokkos::MemoryUnmanaged>;
     Kokkos::deep_copy(Here(sum), There(elsewhere));
   }
+
+  FoamColumns *low = nullptr;    // see FoamKokkosBubbles; of an integrator
 
  private:
   AtomKokkos *atomKK;
