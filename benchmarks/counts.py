@@ -38,9 +38,11 @@ def read(path):
     def add(key, *values):
         counts[key] = tuple(a + b for a, b in zip(counts.get(key, (0, 0.0, 0)), values))
 
-    for what, events in (("launch", raw["kernels"]), ("fence", raw["fences"])):
-        for event in events:
-            add((what, event["device"], short(event["label"])), event["count"], event["seconds"], 0)
+    for event in raw["kernels"]:
+        add(("launch", event["device"], short(event["label"])), event["count"], event["seconds"], 0)
+    for event in raw["fences"]:
+        label = f"{short(event['label'])}; after {short(event['after'])}"
+        add(("fence", event["device"], label), event["count"], event["seconds"], 0)
     for copy in raw["copies"]:
         add(("copy", copy["direction"], short(copy["label"])), copy["count"], 0.0, copy["bytes"])
     return counts, raw["memory"]
@@ -82,4 +84,5 @@ def listed(counts, divisor, bubbles):
     rows = [{"what": what, "where": where, "label": label, "count": count / divisor,
              "ns": 1e9 * seconds / divisor / bubbles, "bytes": size / divisor}
             for (what, where, label), (count, seconds, size) in counts.items()]
-    return sorted(rows, key=lambda row: (row["what"] != "launch", -row["ns"], -row["count"]))
+    order = {"launch": 0, "fence": 1, "copy": 2}
+    return sorted(rows, key=lambda row: (order[row["what"]], -row["ns"], -row["count"]))

@@ -6,7 +6,7 @@
 
    Kokkos calls the functions named kokkosp_... below.  When it ends, FOAM_COUNTS has, as JSON:
      kernels   launches by label, with the device they ran on
-     fences    places where the host waits for the device, by label
+     fences    places where the host waits for the device, by label and the kernel launched last
      copies    Kokkos::deep_copy by direction, with bytes and labels ("fill" writes one value)
      memory    bytes that Kokkos has allocated, at most, in each memory space
 
@@ -44,7 +44,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 struct Event {
-  std::string kind, device;
+  std::string kind, device, label, after;
   uint64_t count = 0;
   double seconds = 0.0;
 };
@@ -59,6 +59,7 @@ std::mutex mutex;    // kernels may be launched by several threads
 std::map<std::string, Event> kernels, fences;
 std::map<std::string, std::map<std::string, Copy>> copies;
 std::map<std::string, Memory> memory;
+std::string last_kernel;
 
 bool timing = false;
 std::vector<std::pair<Event *, Clock::time_point>> running;
@@ -84,14 +85,18 @@ std::string readable(const char *label)
   return result;
 }
 
-uint64_t begin(std::map<std::string, Event> &events, const char *kind, const char *label,
-               uint32_t device)
+uint64_t begin(const char *kind, const char *label, uint32_t device)
 {
   const std::lock_guard<std::mutex> lock(mutex);
-  const std::string name = readable(label);
-  Event &event = events[name + "@" + device_name(device)];
+  const std::string name = readable(label), where = device_name(device);
+  const bool fence = std::strcmp(kind, "fence") == 0;
+  if (!fence) last_kernel = name;
+  Event &event =
+      fence ? fences[name + "@" + where + "@" + last_kernel] : kernels[name + "@" + where];
   event.kind = kind;
-  event.device = device_name(device);
+  event.device = where;
+  event.label = name;
+  event.after = last_kernel;
   event.count++;
   if (!timing) return 0;
   running.emplace_back(&event, Clock::now());
@@ -125,11 +130,11 @@ void write(FILE *file, const char *what, const std::map<std::string, Event> &eve
   std::fprintf(file, "\"%s\": [", what);
   const char *separator = "\n";
   for (const auto &[key, event] : events) {
-    const std::string label = key.substr(0, key.rfind('@'));
     std::fprintf(file,
-                 "%s  {\"label\": %s, \"kind\": \"%s\", \"device\": \"%s\", "
+                 "%s  {\"label\": %s, \"after\": %s, \"kind\": \"%s\", \"device\": \"%s\", "
                  "\"count\": %llu, \"seconds\": %.9g}",
-                 separator, quoted(label).c_str(), event.kind.c_str(), event.device.c_str(),
+                 separator, quoted(event.label).c_str(), quoted(event.after).c_str(),
+                 event.kind.c_str(), event.device.c_str(),
                  static_cast<unsigned long long>(event.count), event.seconds);
     separator = ",\n";
   }
@@ -153,7 +158,7 @@ void kokkosp_init_library(int, uint64_t, uint32_t, void *)
 
 void kokkosp_begin_parallel_for(const char *label, uint32_t device, uint64_t *id)
 {
-  *id = begin(kernels, "for", label, device);
+  *id = begin("for", label, device);
 }
 void kokkosp_end_parallel_for(uint64_t)
 {
@@ -161,7 +166,7 @@ void kokkosp_end_parallel_for(uint64_t)
 }
 void kokkosp_begin_parallel_reduce(const char *label, uint32_t device, uint64_t *id)
 {
-  *id = begin(kernels, "reduce", label, device);
+  *id = begin("reduce", label, device);
 }
 void kokkosp_end_parallel_reduce(uint64_t)
 {
@@ -169,7 +174,7 @@ void kokkosp_end_parallel_reduce(uint64_t)
 }
 void kokkosp_begin_parallel_scan(const char *label, uint32_t device, uint64_t *id)
 {
-  *id = begin(kernels, "scan", label, device);
+  *id = begin("scan", label, device);
 }
 void kokkosp_end_parallel_scan(uint64_t)
 {
@@ -181,7 +186,7 @@ void kokkosp_begin_fence(const char *label, uint32_t device, uint64_t *id)
     *id = UINT64_MAX;
     return;
   }
-  *id = begin(fences, "fence", label, device);
+  *id = begin("fence", label, device);
 }
 void kokkosp_end_fence(uint64_t id)
 {

@@ -13,99 +13,114 @@ def memory_per_bubble(report, run, key):
     return 2**20 * (run[key] - small[key]) / more if more > 0 else None
 
 
-def cell(value, width, form=".1f"):
-    return f"{'-':>{width}s}" if value is None else f"{value:{width}{form}}"
-
-
-def digits(value):
-    """A format with three digits that matter."""
-    return ".3f" if value < 1 else ".2f" if value < 10 else ".1f" if value < 100 else ".0f"
+def shown(value, width):
+    """A number with three digits that matter."""
+    if value is None:
+        return f"{'-':>{width}s}"
+    digits = 3 if value < 0.9995 else 2 if value < 9.995 else 1 if value < 99.95 else 0
+    return f"{value:{width}.{digits}f}"
 
 
 def table(report):
-    lines = [f"{report['machine']}" + (f", {report['gpu']}" if report["gpu"] else ", no GPU"),
-             "memory bandwidth (triad): " + (", ".join(
-                 f"{value:.0f} GB/s " + ("GPU" if key == "cuda" else f"{key} thread"
-                                         + "s" * (key != "1"))
-                 for key, value in report["bandwidth"].items() if value) or "not measured")]
+    bandwidth = [f"{value:.0f} GB/s " + ("GPU" if key == "cuda" else f"{key} thread" +
+                                         "s" * (key != "1"))
+                 for key, value in report["bandwidth"].items() if value]
+    lines = [f"{report['machine']}, {report['gpu'] or 'no GPU'}",
+             "memory bandwidth (triad): " + (", ".join(bandwidth) or "not measured")]
     for scene in dict.fromkeys(run["scene"] for run in report["runs"]):
-        runs = [run for run in report["runs"] if run["scene"] == scene]
-        lines += ["", f"{scene.upper()}, gas fraction {runs[0]['phi']}: "
-                  "nanoseconds per bubble and evaluation",
-                  " bubbles  what               on       whole    pair  modify   neigh    comm"
-                  "   other |  evals/tau   s/tau | bytes   floor  share | B/bubble  device"]
-        for run in sorted(runs, key=lambda r: (r["nominal"], list(NAMES).index(r["what"]))):
-            s = run["split"]
-            ns = [run["ns"], s["Pair"], s["Modify"], s["Neigh"], s["Comm"], s["Other"] + s["Output"]]
-            floor = run.get("floor ns")
-            lines.append(
-                f"{run['bubbles']:8.0f}  {NAMES[run['what']]:18s} {run['configuration']:6s}" +
-                "".join(f"{value:8{digits(value)}}" for value in ns) + " | " +
-                cell(run.get("evaluations per tau"), 10, ".0f") +
-                cell(run.get("seconds per tau"), 8, digits(run.get("seconds per tau") or 0)) + " | "
-                + cell(run.get("bytes"), 5, ".0f") + cell(floor, 8, digits(floor or 0)) +
-                cell(floor and 100 * floor / run["ns"], 6, ".0f") + ("%" if floor else " ") + " | "
-                + cell(memory_per_bubble(report, run, "rss"), 8, ".0f")
-                + cell(memory_per_bubble(report, run, "device memory") if run["device memory"]
-                       else None, 8, ".0f"))
-        for other in report["others"]:
-            if other["scene"] == scene:
-                lines.append(f"{other['bubbles']:8.0f}  {other['label']:25s}"
-                             f"{other['ns']:8{digits(other['ns'])}}")
+        runs = sorted((run for run in report["runs"] if run["scene"] == scene),
+                      key=lambda run: (run["nominal"], list(NAMES).index(run["what"])))
+        lines += ["", f"{scene.upper()}, gas fraction {runs[0]['phi']:.2f}: nanoseconds per bubble "
+                  "and evaluation", *time_lines(runs),
+                  *(f"{other['bubbles']:8.0f}  {other['label']:24s}{shown(other['ns'], 8)}"
+                    for other in report["others"] if other["scene"] == scene),
+                  "", *cost_lines(report, runs)]
     if report["counts"]:
-        lines += ["", "Kokkos, per evaluation without list builds (per list build)",
-                  "scene  what               on        launches      fences     "
-                  "fills  copies on device  device to host  host to device"]
-        for row in report["counts"]:
-            lines.append(counts_line(row))
+        lines += ["", "Kokkos: per evaluation without list builds (per list build)",
+                  "scene  what               on     launches      fences       fills"
+                  "   device     to host   to device", *map(counts_line, report["counts"])]
+    lists = {}      # the same ones for several back ends stand there once
     for row in report["counts"]:
         if row["what"] == "foam":
-            lines += ["", f"{row['scene']} {row['configuration']}: per evaluation, without list "
-                      "builds"]
-            lines += label_lines(row["labels"])
+            content = tuple(label_lines(row["labels"]))
+            lists.setdefault(content, []).append(f"{row['scene']} {row['configuration']}")
+    for content, where in lists.items():
+        lines += ["", f"{', '.join(where)}: per evaluation, without list builds", *content]
     for row in report["kernels"]:
         lines += ["", f"{row['scene']} {row['configuration']}, {row['bubbles']:.0f} bubbles: per "
-                  "evaluation, list builds included; ns per bubble, waiting for each kernel"]
-        lines += label_lines(row["labels"])
+                  "evaluation, list builds included; ns per bubble, waiting for each kernel",
+                  *label_lines([label for label in row["labels"] if label["what"] == "launch"], 16)]
     if report["notes"]:
         lines += ["", *dict.fromkeys(report["notes"])]
     return "\n".join(lines)
 
 
-def label_lines(labels):
+def time_lines(runs):
+    lines = [" bubbles  what               on       whole    pair  modify   neigh    comm   other"]
+    for run in runs:
+        split = run["split"]
+        ns = [run["ns"], *(split[name] for name in ("Pair", "Modify", "Neigh", "Comm")),
+              split["Other"] + split["Output"]]
+        lines.append(f"{run['bubbles']:8.0f}  {NAMES[run['what']]:18s} {run['configuration']:6s}" +
+                     "".join(shown(value, 8) for value in ns))
+    return lines
+
+
+def cost_lines(report, runs):
+    lines = [" bubbles  what           on     evals/tau     s/tau   bytes floor/ns   share"
+             "  memory  device"]
+    for run in runs:
+        if "bytes" not in run:
+            continue
+        floor = run.get("floor ns")
+        per_tau, memory = run.get("evaluations per tau"), memory_per_bubble(report, run, "rss")
+        device = run["device memory"] and memory_per_bubble(report, run, "device memory")
+        lines.append(
+            f"{run['bubbles']:8.0f}  {NAMES[run['what']]:14s} {run['configuration']:6s}" +
+            (f"{per_tau:10.0f}" if per_tau else f"{'-':>10s}") +
+            shown(run.get("seconds per tau"), 10) + f"{run['bytes']:8.0f}" + shown(floor, 9) +
+            (f"{100 * floor / run['ns']:7.0f}%" if floor else f"{'-':>8s}") +
+            "".join(f"{value:8.0f}" if value else f"{'-':>8s}" for value in (memory, device)))
+    return lines
+
+
+def label_lines(labels, most=None):
     lines = []
-    for label in labels:
-        if label["what"] == "fence" or label["count"] < 0.004:
+    for label in labels[:most]:
+        if label["count"] < 0.004:
             continue
         time_of = f"{label['ns']:8.3f} ns" if label["ns"] else ""
-        size = f"  {label['bytes']:.0f} B" if label["bytes"] else ""
-        where = label["where"] + ": " if label["what"] == "copy" else ""
-        lines.append(f"  {label['count']:7.2f} {time_of}  {where}{label['label'][:100]}{size}")
+        size = f"  {label['bytes']:.0f} B" if label["what"] == "copy" else ""
+        where = {"launch": "", "fence": "waits: ", "copy": f"copy {label['where']}: "}[label["what"]]
+        lines.append(f"  {label['count']:7.2f} {time_of}  {where}{label['label'][:90]}{size}")
     return lines
 
 
 def counts_line(row):
     steady, build = row["steady"], row.get("per build")
 
-    def shown(get, width):
-        text = f"{get(steady):.2f}" + (f" ({get(build):.0f})" if build else "")
-        return f"{text:>{width}s}"
-
-    def copies(choose):
-        return lambda total: sum(n for where, n in total["copies"].items() if choose(where))
-
-    def host(space):
+    def on_host(space):
         return space == "Host" or space.endswith("Pinned")
 
-    def across(source, target):
-        return copies(lambda where: not where.startswith("fill") and
-                      host(where.split(" to ")[0]) == source and
-                      host(where.split(" to ")[1]) == target)
+    def copies(total, chosen):
+        return sum(n for where, n in total["copies"].items() if chosen(where))
 
-    on_host = steady["device"] in ("OpenMP", "Serial", "Threads", None)
-    return (f"{row['scene']:6s} {NAMES[row['what']]:18s} {row['configuration']:8s}"
-            + shown(lambda t: t["launches"], 10) + shown(lambda t: t["fences"], 12)
-            + shown(copies(lambda where: where.startswith("fill")), 10)
-            + shown(across(on_host, on_host), 18)
-            + (f"{'-':>16s}{'-':>16s}" if on_host else
-               shown(across(False, True), 16) + shown(across(True, False), 16)))
+    def fill(where):
+        return where.startswith("fill")
+
+    def across(source, target):
+        def chosen(where):
+            spaces = where.split(" to ")
+            return not fill(where) and [on_host(space) for space in spaces] == [source, target]
+        return lambda total: copies(total, chosen)
+
+    host = steady["device"] in ("OpenMP", "Serial", "Threads", None)
+    columns = [(lambda total: total["launches"], 12), (lambda total: total["fences"], 12),
+               (lambda total: copies(total, fill), 12), (across(host, host), 9)]
+    if not host:
+        columns += [(across(False, True), 12), (across(True, False), 12)]
+    line = f"{row['scene']:6s} {NAMES[row['what']]:18s} {row['configuration']:5s}"
+    for figure, width in columns:
+        text = f"{figure(steady):.2f}" + (f" ({figure(build):.0f})" if build else "")
+        line += f"{text:>{width}s}"
+    return line + (f"{'-':>12s}{'-':>12s}" if host else "")
