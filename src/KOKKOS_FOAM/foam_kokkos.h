@@ -94,6 +94,10 @@ template <class Value, class Space> class FoamJoin {
   KOKKOS_INLINE_FUNCTION void init(Value &value) const { value = Value(); }
   KOKKOS_INLINE_FUNCTION Value &reference() const { return *result.data(); }
   KOKKOS_INLINE_FUNCTION result_view_type view() const { return result; }
+  KOKKOS_INLINE_FUNCTION bool references_scalar() const    // of the host, so that Kokkos waits
+  {
+    return std::is_same_v<Space, Kokkos::HostSpace>;
+  }
 
  private:
   result_view_type result;
@@ -164,7 +168,7 @@ template <class DeviceType> class FoamKokkos : protected Pointers {
       auto mine = reduce<Foam::SumsOfOne>(n, body);
       MPI_Allreduce(mine.sum, all.known, 4, MPI_DOUBLE, MPI_SUM, world);
     } else {
-      Foam::SumsOfOne *const there = &sums_there(Body::SLOT);
+      Foam::SumsOfOne *const there = sums_there.data() + Body::SLOT;
       Kokkos::parallel_reduce(Body::NAME, Kokkos::RangePolicy<DeviceType>(0, n), body,
                               FoamJoin<Foam::SumsOfOne, typename DeviceType::memory_space>(there));
       all.elsewhere = there->sum;
