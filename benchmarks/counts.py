@@ -11,7 +11,8 @@ LIBRARY = "kernel_counter.so"
 def build(cache):
     """Path of the tool, or None where there is no compiler."""
     target = (cache / LIBRARY).absolute()
-    made = compile_here("kernel_counter.cpp", target, "c++", "-O2", "-std=c++17", "-shared", "-fPIC")
+    made = compile_here("kernel_counter.cpp", target, "c++", "-O2", "-std=c++17", "-shared",
+                        "-fPIC")
     return target if made else None
 
 

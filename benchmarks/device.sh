@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# All figures of a GPU in one call of less than 8 minutes, on a machine with an NVIDIA GPU, Python 3,
-# a C++ compiler, and best also with nvcc, compute-sanitizer and matplotlib.
+# All figures of a GPU in one call of less than 8 minutes, on a machine with an NVIDIA GPU, Python
+# 3, a C++ compiler, and best also with nvcc, compute-sanitizer and matplotlib.
 #
 #   device.sh LMP [OUT] [SECONDS]
 #
@@ -23,7 +23,10 @@ trap 'rm -rf "$work"' EXIT
 mkdir -p "$out"
 PATH=$PATH:${CUDA_HOME:-/usr/local/cuda}/bin
 
-command -v nvidia-smi >/dev/null || { echo "device.sh: no nvidia-smi, so no NVIDIA GPU here" >&2; exit 1; }
+if ! command -v nvidia-smi >/dev/null; then
+  echo "device.sh: no nvidia-smi, so no NVIDIA GPU here" >&2
+  exit 1
+fi
 case $lmp in
   *.gz) gunzip -c "$lmp" >"$work/lmp" ;;
   *) cp "$lmp" "$work/lmp" ;;
@@ -32,9 +35,9 @@ chmod +x "$work/lmp"
 lmp=$work/lmp
 
 nvidia-smi --query-gpu=name,driver_version,memory.total --format=csv,noheader
-sanitize=90    # seconds kept for the checks at the end
+sanitize=70    # seconds kept for the checks at the end
 python3 "$here/run.py" --lmp "$lmp" --lmp-cuda "$lmp" --backends base,cuda --full --host-max 1e5 \
-  --what foam,hooke,history --repeat 2 --kernels --limit $((end - SECONDS - sanitize - 20)) \
+  --what foam,hooke,history --repeat 2 --kernels --limit $((end - SECONDS - sanitize - 15)) \
   --out "$out" --cache "$work"
 status=$?
 

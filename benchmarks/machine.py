@@ -14,7 +14,7 @@ HERE = Path(__file__).resolve().parent
 
 
 def compile_here(sources, target, *words):
-    """Compile a file of this folder with the first word of `words`; False if that is not possible."""
+    """Compile a file of this folder by the command `words`; False if that is not possible."""
     source = HERE / sources
     if target.exists() and target.stat().st_mtime > source.stat().st_mtime:
         return True
@@ -28,7 +28,7 @@ def compile_here(sources, target, *words):
 
 def cpu_name():
     try:
-        name = re.search(r"^model name\s*: (.*)", Path("/proc/cpuinfo").read_text(), re.M)[1].strip()
+        name = re.search(r"^model name\s*: (.*\S)", Path("/proc/cpuinfo").read_text(), re.M)[1]
     except (OSError, TypeError):
         name = "unknown processor"
     cores = len(os.sched_getaffinity(0))
@@ -38,7 +38,8 @@ def cpu_name():
 def nvidia_smi(query):
     """First GPU's answer, or None."""
     try:
-        done = subprocess.run(["nvidia-smi", f"--query-gpu={query}", "--format=csv,noheader,nounits"],
+        done = subprocess.run(["nvidia-smi", f"--query-gpu={query}",
+                               "--format=csv,noheader,nounits"],
                               capture_output=True, text=True, timeout=20)
     except (OSError, subprocess.TimeoutExpired):
         return None

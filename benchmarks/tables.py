@@ -91,7 +91,8 @@ def label_lines(labels, most=None):
             continue
         time_of = f"{label['ns']:8.3f} ns" if label["ns"] else ""
         size = f"  {label['bytes']:.0f} B" if label["what"] == "copy" else ""
-        where = {"launch": "", "fence": "waits: ", "copy": f"copy {label['where']}: "}[label["what"]]
+        where = {"launch": "", "fence": "waits: ",
+                 "copy": f"copy {label['where']}: "}[label["what"]]
         lines.append(f"  {label['count']:7.2f} {time_of}  {where}{label['label'][:90]}{size}")
     return lines
 

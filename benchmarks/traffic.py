@@ -45,8 +45,8 @@ CORRECT = Loop(
     reads={"x_start": D, "v": 3, "f": 3, "x": 3, "q_start": 1, "qdot": 1, "film": 1, "area": 1,
            "radius": 1, "radius_start": 1, "x_listed": D, "radius_listed": 1},
     writes={"x": 3, "q": 1, "radius": 1},
-    why="rates at y*, the corrected state, its distance from the predicted one, all sums that judge "
-        "it")
+    why="rates at y*, the corrected state, its distance from the predicted one, all sums that "
+        "judge it")
 RATES = Loop(
     "rates",
     reads={"f": 3, "film": 1, "area": 1, "radius": 1, "v": 3, "qdot": 1},
