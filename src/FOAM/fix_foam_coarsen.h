@@ -46,6 +46,7 @@ class FixFoamCoarsen : public Fix {
   Population population;
 
   unsigned wanted() const;    // what the pair style has to gather for it
+  Foam::LiquidLaw liquid_law() const { return law; }
 
   // the law for the sums over contacts that the pair style gathered last; on all ranks, as
   // exchange through the liquid takes sums over all bubbles
@@ -61,7 +62,9 @@ class FixFoamCoarsen : public Fix {
     gas.film = here.column(pair->film, 0);
     gas.area = here.column(pair->area, 0);
     using Body = Foam::LiquidSums<D, typename Space::Bubbles>;
-    if (gas.through_liquid()) gas.take(here.sums(nlocal, Body{here.bubbles(), gas}));
+    if (gas.through_liquid())
+      gas.take(pair->free_surface_known ? pair->free_surface
+                                        : here.sums(nlocal, Body{here.bubbles(), law, gas.area}));
     return gas;
   }
   template <int D> void took(const Foam::Exchange<D> &gas)    // the integrator, for its rates

@@ -178,6 +178,7 @@ void FixFoamIntegrate::init()
   // what is switched off is not gathered
 
   pair->gas_wanted = gas ? gas->wanted() : 0;
+  if (gas) pair->liquid_law = gas->liquid_law();
   if (pair->neighbor_drag) lags.use(atom->nmax);
 }
 
@@ -342,7 +343,7 @@ template <int D> FoamTotals FixFoamIntegrate::change_of_rates()
 
 void FixFoamIntegrate::check_ghosts()
 {
-  if (!gas || ghosts_checked) return;
+  if (!gas || ghosts_checked || pair->sends_radii()) return;
   const int nlocal = atom->nlocal, nall = nlocal + atom->nghost;
   host_reads();
   for (int i = nlocal; i < nall; i++) atom->radius[i] = -1.0;

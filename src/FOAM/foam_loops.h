@@ -100,6 +100,20 @@ struct SumsOfOne {    // what one bubble adds to them
 // Rate of gas content: Vdot_i = K sum_j A_ij (1/R_j - 1/R_i) + c w_i (1/rho - 1/R_i),
 // see foam_physics.h
 
+// What a bubble adds to the sums over all bubbles that the second part takes: their number,
+// surface, weight and weight / R
+
+template <int D>
+FOAM_FUNCTION void add_free_surface(LiquidLaw law, double R, double contact_area, SumsOfOne &all)
+{
+  if (!(R > 0.0)) return;
+  const double A = surface<D>(R), w = liquid_weight(law, free_area(A, contact_area), R);
+  all.sum[0] += 1.0;
+  all.sum[1] += A;
+  all.sum[2] += w;
+  all.sum[3] += w / R;
+}
+
 template <int D> struct Exchange {
   double K = 0.0, kappa = 0.0;
   LiquidLaw law = LiquidLaw::AREA;
@@ -115,17 +129,6 @@ template <int D> struct Exchange {
     double coefficient = 0.0, inverse_rho = 0.0;
   };
 
-  // sums over all bubbles: their number, surface, weight and weight / R
-
-  FOAM_FUNCTION void add(int i, double R, SumsOfOne &all) const
-  {
-    if (!(R > 0.0)) return;
-    const double w = weight(i, R);
-    all.sum[0] += 1.0;
-    all.sum[1] += surface<D>(R);
-    all.sum[2] += w;
-    all.sum[3] += w / R;
-  }
   FOAM_FUNCTION Liquid of(const Sums &all) const
   {
     return {liquid_coefficient(law, kappa, K, Rin, Ain, all[1] / all[0]),
@@ -161,8 +164,12 @@ template <int D, class B> struct LiquidSums {
   static constexpr const char *NAME = "foam: sums of free surface";
   static constexpr int SLOT = 0;    // of the sums that stay on a device
   B b;
-  Exchange<D> gas;
-  FOAM_FUNCTION void operator()(int i, SumsOfOne &all) const { gas.add(i, b.radius(i), all); }
+  LiquidLaw law;
+  const double *area;
+  FOAM_FUNCTION void operator()(int i, SumsOfOne &all) const
+  {
+    add_free_surface<D>(law, b.radius(i), area[i], all);
+  }
 };
 
 // ---------------------------------------------------------------------- what compute foam/bubble shows

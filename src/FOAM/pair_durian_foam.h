@@ -56,6 +56,14 @@ class PairDurianFoam : public Pair {
   bool neighbor_drag;     // drag relative to neighbors' mean velocity or to a liquid at rest
   unsigned gas_wanted;    // set by the integrator: Foam::FILM, AREA to gather in each compute()
 
+  // the sums over all bubbles of Foam::add_free_surface(), where they come with compute()
+
+  Foam::LiquidLaw liquid_law = Foam::LiquidLaw::AREA;    // set by the integrator
+  Foam::Sums free_surface;
+  bool free_surface_known = false;
+
+  virtual bool sends_radii() const { return false; }    // to ghosts, in compute(): else LAMMPS does
+
   // sums over the contacts of each bubble, as gathered last; ghosts' parts are added in
 
   FoamColumns contacts{1}, vsum{3}, area{1}, film{1}, energies{2};

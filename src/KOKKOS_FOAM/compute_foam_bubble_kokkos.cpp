@@ -50,8 +50,8 @@ template <class DeviceType> void ComputeFoamBubbleKokkos<DeviceType>::compute_pe
   }
 
   pair->gather();
-  const auto mask = dynamic_cast<AtomKokkos *>(atom)->k_mask.view<DeviceType>();
-  dynamic_cast<AtomKokkos *>(atom)->sync(execution_space, MASK_MASK);
+  const auto mask = atomKK->k_mask.view<DeviceType>();
+  atomKK->sync(execution_space, MASK_MASK);
   look(here, mask, one ? k_vector.view<DeviceType>().data() : k_array.view<DeviceType>().data());
   if (one) {
     k_vector.modify<DeviceType>();

@@ -19,8 +19,7 @@ using namespace LAMMPS_NS;
 
 template <class DeviceType>
 FixFoamCoarsenKokkos<DeviceType>::FixFoamCoarsenKokkos(LAMMPS *lmp, int narg, char **arg)
-    : FixFoamCoarsen(lmp, narg, arg), here(lmp, EMPTY_MASK),
-      atomKK(dynamic_cast<AtomKokkos *>(lmp->atom))
+    : FixFoamCoarsen(lmp, narg, arg), here(lmp, EMPTY_MASK)
 {
   kokkosable = 1;
   execution_space = FoamKokkos<DeviceType>::SPACE;

@@ -33,7 +33,6 @@ template <class DeviceType> class FixFoamCoarsenKokkos : public FixFoamCoarsen {
 
  private:
   FoamKokkos<DeviceType> here;
-  AtomKokkos *atomKK;
   DAT::tdual_double_2d_lr k_buf;    // where packed bubbles go, to be forgotten
   DAT::tdual_int_1d k_dead, k_fill;
 

@@ -11,6 +11,7 @@
 #define LMP_FIX_FOAM_INTEGRATE_KOKKOS_H
 
 #include "foam_kokkos.h"
+#include "pair_durian_foam_kokkos.h"
 
 #include "atom_kokkos.h"
 #include "comm.h"
@@ -25,7 +26,7 @@ namespace LAMMPS_NS {
 // Columns that travel with the bubbles: in a buffer, one bubble after the other
 
 struct FoamTravelling {
-  static constexpr int MOST = 16;
+  static constexpr int MOST = 15;
   int count;
   double *column[MOST];
 };
@@ -76,11 +77,10 @@ template <class Style, class DeviceType>
 class FixFoamIntegrateKokkos : public Style, public KokkosBase {
  public:
   FixFoamIntegrateKokkos(LAMMPS *lmp, int narg, char **arg)
-      : Style(lmp, narg, arg), here(lmp, X_MASK | V_MASK | RADIUS_MASK),
-        atomKK(dynamic_cast<AtomKokkos *>(lmp->atom))
+      : Style(lmp, narg, arg), here(lmp, X_MASK | V_MASK | RADIUS_MASK)
   {
     this->kokkosable = 1;
-    this->exchange_comm_device = this->sort_device = 1;
+    this->exchange_comm_device = this->sort_device = std::is_same_v<DeviceType, LMPDeviceType>;
     this->execution_space = FoamKokkos<DeviceType>::SPACE;
     this->datamask_read = this->datamask_modify = EMPTY_MASK;    // the loops see to it
     for (FoamColumns *c : {&this->columns, &this->lags, &this->low, &this->start, &this->v_start,
@@ -94,27 +94,18 @@ class FixFoamIntegrateKokkos : public Style, public KokkosBase {
 
   int pack_exchange_kokkos(const int &nsend, DAT::tdual_double_2d_lr &k_buf,
                            DAT::tdual_int_1d k_sendlist, DAT::tdual_int_1d k_copylist,
-                           ExecutionSpace) override
+                           ExecutionSpace space) override
   {
-    k_buf.sync<DeviceType>();
-    k_sendlist.sync<DeviceType>();
-    k_copylist.sync<DeviceType>();
-    const FoamTravelling all = travelling_there();
-    here.for_each(nsend, FoamPackExchange<DeviceType>{all, k_buf.view<DeviceType>().data(),
-                                                      k_sendlist.view<DeviceType>(),
-                                                      k_copylist.view<DeviceType>()});
-    k_buf.modify<DeviceType>();
-    return nsend * all.count;
+    return space == Device ? pack_in<LMPDeviceType>(nsend, k_buf, k_sendlist, k_copylist)
+                           : pack_in<LMPHostType>(nsend, k_buf, k_sendlist, k_copylist);
   }
-
   void unpack_exchange_kokkos(DAT::tdual_double_2d_lr &k_buf, DAT::tdual_int_1d &k_indices,
-                              int nrecv, int nrecv1, int nextrarecv1, ExecutionSpace) override
+                              int nrecv, int nrecv1, int nextrarecv1, ExecutionSpace space) override
   {
-    k_buf.sync<DeviceType>();
-    k_indices.sync<DeviceType>();
-    here.for_each(
-        nrecv, FoamUnpackExchange<DeviceType>{travelling_there(), k_buf.view<DeviceType>().data(),
-                                              k_indices.view<DeviceType>(), nrecv1, nextrarecv1});
+    if (space == Device)
+      unpack_in<LMPDeviceType>(k_buf, k_indices, nrecv, nrecv1, nextrarecv1);
+    else
+      unpack_in<LMPHostType>(k_buf, k_indices, nrecv, nrecv1, nextrarecv1);
   }
 
   void sort_kokkos(Kokkos::BinSort<KeyViewType, BinOp> &sorter) override
@@ -128,17 +119,23 @@ class FixFoamIntegrateKokkos : public Style, public KokkosBase {
 
  protected:
   FoamKokkos<DeviceType> here;
-  AtomKokkos *atomKK;
 
   void keep_history() override { this->keep_history_in(here); }
   void take_rates(bool history) override { this->take_rates_in(here, history); }
   void redistribute(double factor) override { this->redistribute_in(here, factor); }
   void return_to_start() override { this->return_to_start_in(here); }
-  void take_listed() override { this->take_listed_in(here); }
+  void take_listed() override
+  {
+    this->take_listed_in(here);
+    pair_there()->take_list();
+  }
   double largest_radius() override { return this->largest_radius_in(here); }
 
-  void host_reads() override { atomKK->sync(Host, ALL_MASK); }
-  void host_wrote() override { atomKK->modified(Host, X_MASK | V_MASK | F_MASK | RADIUS_MASK); }
+  void host_reads() override { this->atomKK->sync(Host, ALL_MASK); }
+  void host_wrote() override
+  {
+    this->atomKK->modified(Host, X_MASK | V_MASK | F_MASK | RADIUS_MASK);
+  }
 
   // as VerletKokkos::run() does it in turn
 
@@ -148,15 +145,15 @@ class FixFoamIntegrateKokkos : public Style, public KokkosBase {
     Modify *const modify = this->modify;
     Pair *const pair = this->force->pair;
     timer->stamp(Timer::MODIFY);
-    this->comm->forward_comm();
+    if (!pair_there()->refresh_ghosts(PairThere::Ghosts::EVERYTHING)) this->comm->forward_comm();
     timer->stamp(Timer::COMM);
 
     if (!pair->fuse_force_clear_flag || modify->n_pre_force) clear_forces();
     if (modify->n_pre_force) modify->pre_force(vflag);
     timer->stamp(Timer::MODIFY);
-    atomKK->sync(pair->execution_space, pair->datamask_read);
+    this->atomKK->sync(pair->execution_space, pair->datamask_read);
     pair->compute(eflag, vflag);
-    atomKK->modified(pair->execution_space, pair->datamask_modify);
+    this->atomKK->modified(pair->execution_space, pair->datamask_modify);
     timer->stamp(Timer::PAIR);
     if (this->force->newton) {
       Kokkos::fence();
@@ -167,20 +164,50 @@ class FixFoamIntegrateKokkos : public Style, public KokkosBase {
   }
 
  private:
-  FoamTravelling travelling_there()
+  using PairThere = PairDurianFoamKokkos<DeviceType>;
+  PairThere *pair_there() { return static_cast<PairThere *>(this->pair); }    // see init()
+
+  // LAMMPS has the buffer on the side of its communication, device or host
+
+  template <class Side> FoamTravelling travelling_in()
   {
     FoamTravelling all{0, {}};
     for (FoamColumns *columns : this->travelling())
-      for (int c = 0; c < columns->active(); c++) all.column[all.count++] = columns->on_device(c);
+      for (int c = 0; c < columns->active(); c++)
+        all.column[all.count++] =
+            std::is_same_v<Side, LMPDeviceType> ? columns->on_device(c) : (*columns)[c];
     return all;
+  }
+  template <class Side>
+  int pack_in(int nsend, DAT::tdual_double_2d_lr &k_buf, DAT::tdual_int_1d &k_sendlist,
+              DAT::tdual_int_1d &k_copylist)
+  {
+    k_buf.sync<Side>();
+    k_sendlist.sync<Side>();
+    k_copylist.sync<Side>();
+    const FoamPackExchange<Side> pack{travelling_in<Side>(), k_buf.view<Side>().data(),
+                                      k_sendlist.view<Side>(), k_copylist.view<Side>()};
+    Kokkos::parallel_for(pack.NAME, Kokkos::RangePolicy<Side>(0, nsend), pack);
+    k_buf.modify<Side>();
+    return nsend * pack.all.count;
+  }
+  template <class Side>
+  void unpack_in(DAT::tdual_double_2d_lr &k_buf, DAT::tdual_int_1d &k_indices, int nrecv,
+                 int nrecv1, int nextrarecv1)
+  {
+    k_buf.sync<Side>();
+    k_indices.sync<Side>();
+    const FoamUnpackExchange<Side> unpack{travelling_in<Side>(), k_buf.view<Side>().data(),
+                                          k_indices.view<Side>(), nrecv1, nextrarecv1};
+    Kokkos::parallel_for(unpack.NAME, Kokkos::RangePolicy<Side>(0, nrecv), unpack);
   }
 
   void clear_forces()
   {
-    atomKK->k_f.clear_sync_state();
+    this->atomKK->k_f.clear_sync_state();
     here.for_each(this->atom->nlocal + (this->force->newton ? this->atom->nghost : 0),
-                  FoamClearForces<DeviceType>{atomKK->k_f.view<DeviceType>()});
-    atomKK->modified(FoamKokkos<DeviceType>::SPACE, F_MASK);
+                  FoamClearForces<DeviceType>{this->atomKK->k_f.template view<DeviceType>()});
+    this->atomKK->modified(FoamKokkos<DeviceType>::SPACE, F_MASK);
   }
 };
 

@@ -115,8 +115,7 @@ template <class DeviceType> class FoamKokkos : protected Pointers {
   // changes: masks of LAMMPS' arrays that the bodies may write to
 
   FoamKokkos(LAMMPS *lmp, uint64_t changes)
-      : Pointers(lmp), atomKK(dynamic_cast<AtomKokkos *>(atom)), written(changes),
-        sums_there("foam:sums")
+      : Pointers(lmp), written(changes), sums_there("foam:sums")
   {
   }
 
@@ -186,7 +185,6 @@ template <class DeviceType> class FoamKokkos : protected Pointers {
   FoamColumns *low = nullptr;    // see FoamKokkosBubbles; of an integrator
 
  private:
-  AtomKokkos *atomKK;
   uint64_t written;
   Kokkos::View<Foam::SumsOfOne[2], DeviceType> sums_there;
 };

@@ -12,11 +12,15 @@
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
+#include "fix.h"
 #include "force.h"
 #include "kokkos.h"
 #include "memory_kokkos.h"
+#include "modify.h"
 #include "neigh_request.h"
 #include "neighbor.h"
+
+#include <cstring>
 
 using namespace LAMMPS_NS;
 
@@ -31,6 +35,7 @@ PairDurianFoamKokkos<DeviceType>::PairDurianFoamKokkos(LAMMPS *lmp)
   datamask_read = X_MASK | V_MASK | F_MASK | RADIUS_MASK | TYPE_MASK | TAG_MASK;
   datamask_modify = F_MASK | ENERGY_MASK | VIRIAL_MASK;
   list_flags |= NeighConst::REQ_NEWTON_OFF;
+  comm_forward = 1;
   for (FoamColumns *sums : {&contacts, &vsum, &area, &film, &energies}) here.keep(*sums);
 }
 
@@ -47,15 +52,14 @@ template <class DeviceType> void PairDurianFoamKokkos<DeviceType>::init_style()
   request->set_kokkos_host(std::is_same_v<DeviceType, LMPHostType> &&
                            !std::is_same_v<DeviceType, LMPDeviceType>);
   request->set_kokkos_device(std::is_same_v<DeviceType, LMPDeviceType>);
-  rows_known = false;
+  rows_known = owners_known = ghosts_fresh = false;
 
   // Forces of owned bubbles only, written and not added to: then LAMMPS need not clear them first
 
   fuse_force_clear_flag = !force->newton && !utils::strmatch(force->pair_style, "^hybrid");
 }
 
-template <class DeviceType>
-void PairDurianFoamKokkos<DeviceType>::compute(int eflag, int vflag)
+template <class DeviceType> void PairDurianFoamKokkos<DeviceType>::compute(int eflag, int vflag)
 {
   ev_init(eflag, vflag, 0);
   if (eflag_atom) {
@@ -67,6 +71,12 @@ void PairDurianFoamKokkos<DeviceType>::compute(int eflag, int vflag)
     memoryKK->create_kokkos(k_vatom, vatom, maxvatom, "pair:vatom");
   }
 
+  take_list();
+  if (sends_radii() && !ghosts_fresh && !refresh_ghosts(Ghosts::RADII)) {
+    sending = RADII;
+    comm->forward_comm(this);
+  }
+  ghosts_fresh = false;
   gather(Foam::FORCE | (neighbor_drag ? Foam::DRAG : 0u) | gas_wanted);
 
   if (eflag_atom) {
@@ -182,7 +192,7 @@ template <class DeviceType> struct SortRows : ListedPairs<DeviceType> {
 
 }    // namespace
 
-template <class DeviceType> void PairDurianFoamKokkos<DeviceType>::look_at_list()
+template <class DeviceType> void PairDurianFoamKokkos<DeviceType>::take_list()
 {
   if (!rows_known) {    // coefficients too may be new
     const int n = (atom->ntypes + 1) * (atom->ntypes + 1);
@@ -193,6 +203,7 @@ template <class DeviceType> void PairDurianFoamKokkos<DeviceType>::look_at_list(
   }
   if (rows_known && rows_ncalls == neighbor->ncalls && rows_lastcall == neighbor->lastcall) return;
   make_rows();
+  make_owners();
   rows_known = true;
   rows_ncalls = neighbor->ncalls;
   rows_lastcall = neighbor->lastcall;
@@ -233,6 +244,166 @@ template <class DeviceType> void PairDurianFoamKokkos<DeviceType>::make_rows()
   placed.rows = rows;
   here.for_each(list->inum, FillRows<DeviceType>{placed});
   here.for_each(nlocal, SortRows<DeviceType>{placed});
+}
+
+/* ----------------------------------------------------------------------
+   ghosts
+------------------------------------------------------------------------- */
+
+namespace {
+
+template <class DeviceType> struct OwnIndex {
+  static constexpr const char *NAME = "foam: owners";
+  typename ArrayTypes<DeviceType>::t_int_1d owner;
+  KOKKOS_INLINE_FUNCTION void operator()(int i) const { owner(i) = i; }
+};
+
+template <class DeviceType, bool EVERYTHING> struct RefreshGhosts {
+  static constexpr const char *NAME = EVERYTHING ? "foam: ghosts" : "foam: radii of ghosts";
+  FoamGhosts<DeviceType> g;
+  bool velocities;
+  KOKKOS_INLINE_FUNCTION void operator()(int n) const
+  {
+    const int i = g.nlocal + n, o = g.owner(i);
+    g.b.radius(i) = g.b.radius(o);
+    if constexpr (EVERYTHING) {
+      const int nx = g.boxes(n, 0), ny = g.boxes(n, 1), nz = g.boxes(n, 2);
+      g.b.x(i, 0) = g.b.x(o, 0) + nx * g.xprd + ny * g.xy + nz * g.xz;
+      g.b.x(i, 1) = g.b.x(o, 1) + ny * g.yprd + nz * g.yz;
+      g.b.x(i, 2) = g.b.x(o, 2) + nz * g.zprd;
+      if (velocities)
+        for (int k = 0; k < 3; k++) g.b.v(i, k) = g.b.v(o, k);
+    }
+  }
+};
+
+template <class View, class List> struct PackOne {
+  static constexpr const char *NAME = "foam: pack";
+  View values;
+  List sent;
+  double *buf;
+  KOKKOS_INLINE_FUNCTION void operator()(int m) const { buf[m] = values(sent(m)); }
+};
+template <class View, class List> PackOne(View, List, double *) -> PackOne<View, List>;
+
+template <class View> struct UnpackOne {
+  static constexpr const char *NAME = "foam: unpack";
+  View values;
+  const double *buf;
+  int first;
+  KOKKOS_INLINE_FUNCTION void operator()(int m) const { values(first + m) = buf[m]; }
+};
+template <class View> UnpackOne(View, const double *, int) -> UnpackOne<View>;
+
+}    // namespace
+
+// each bubble's index goes the way of its other numbers, also from ghost to ghost
+
+template <class DeviceType> void PairDurianFoamKokkos<DeviceType>::make_owners()
+{
+  owners_known = ghosts_fresh = false;
+  if (comm->nprocs > 1 || strcmp(atom->atom_style, "sphere") != 0) return;
+  const int nlocal = atom->nlocal, nghost = atom->nghost;
+  if (static_cast<int>(k_owner.extent(0)) < nlocal + nghost)
+    k_owner = DAT::tdual_int_1d("durian/foam:owner", atom->nmax);
+  if (static_cast<int>(boxes.extent(0)) < nghost) boxes = Boxes("durian/foam:boxes", 1.2 * nghost);
+
+  here.for_each(nlocal, OwnIndex<DeviceType>{k_owner.view<DeviceType>()});
+  k_owner.modify<DeviceType>();
+  sending = OWNERS;
+  comm->forward_comm(this);
+  k_owner.sync<DeviceType>();
+  here.for_each(nghost, ghosts());
+  owners_known = true;
+}
+
+template <class DeviceType> FoamGhosts<DeviceType> PairDurianFoamKokkos<DeviceType>::ghosts() const
+{
+  const Domain &d = *domain;
+  return {here.bubbles(), k_owner.view<DeviceType>(),
+          boxes,          atom->nlocal,
+          d.xprd,         d.yprd,
+          d.zprd,         d.xy,
+          d.xz,           d.yz};
+}
+
+template <class DeviceType> bool PairDurianFoamKokkos<DeviceType>::refresh_ghosts(Ghosts what)
+{
+  if (!owners_known) return false;
+  const auto all = ghosts();
+  if (what == Ghosts::RADII) {
+    here.for_each(atom->nghost, RefreshGhosts<DeviceType, false>{all, false});
+    atomKK->modified(execution_space, RADIUS_MASK);
+  } else {
+    const bool velocities = comm->ghost_velocity;
+    here.for_each(atom->nghost, RefreshGhosts<DeviceType, true>{all, velocities});
+    atomKK->modified(execution_space, X_MASK | RADIUS_MASK | (velocities ? V_MASK : EMPTY_MASK));
+    ghosts_fresh = true;
+  }
+  return true;
+}
+
+template <class DeviceType> bool PairDurianFoamKokkos<DeviceType>::sends_radii() const
+{
+  if (lmp->kokkos->forward_comm_legacy) return false;
+  bool change = gas_wanted;
+  for (auto &ifix : modify->get_fix_list()) change = change || ifix->diam_flag;
+  return change;
+}
+
+template <class DeviceType>
+int PairDurianFoamKokkos<DeviceType>::pack_forward_comm(int n, int *sent, double *buf, int, int *)
+{
+  if (sending == OWNERS) {
+    k_owner.sync_host();
+    for (int m = 0; m < n; m++) buf[m] = k_owner.view_host()(sent[m]);
+  } else {
+    atomKK->sync(HostKK, RADIUS_MASK);
+    for (int m = 0; m < n; m++) buf[m] = atomKK->k_radius.view_hostkk()(sent[m]);
+  }
+  return n;
+}
+
+template <class DeviceType>
+void PairDurianFoamKokkos<DeviceType>::unpack_forward_comm(int n, int first, double *buf)
+{
+  if (sending == OWNERS) {
+    k_owner.sync_host();
+    for (int m = 0; m < n; m++) k_owner.view_host()(first + m) = static_cast<int>(buf[m]);
+    k_owner.modify_host();
+  } else {
+    atomKK->sync(HostKK, RADIUS_MASK);
+    for (int m = 0; m < n; m++) atomKK->k_radius.view_hostkk()(first + m) = buf[m];
+    atomKK->modified(HostKK, RADIUS_MASK);
+  }
+}
+
+template <class DeviceType>
+int PairDurianFoamKokkos<DeviceType>::pack_forward_comm_kokkos(int n, DAT::tdual_int_1d k_sent,
+                                                               DAT::tdual_double_1d &k_buf, int,
+                                                               int *)
+{
+  const auto sent = k_sent.view<DeviceType>();
+  double *const buf = k_buf.view<DeviceType>().data();
+  if (sending == OWNERS)
+    here.for_each(n, PackOne{k_owner.view<DeviceType>(), sent, buf});
+  else
+    here.for_each(n, PackOne{here.bubbles().radius, sent, buf});
+  return n;
+}
+
+template <class DeviceType>
+void PairDurianFoamKokkos<DeviceType>::unpack_forward_comm_kokkos(int n, int first,
+                                                                  DAT::tdual_double_1d &k_buf)
+{
+  const double *const buf = k_buf.view<DeviceType>().data();
+  if (sending == OWNERS) {
+    here.for_each(n, UnpackOne{k_owner.view<DeviceType>(), buf, first});
+    k_owner.modify<DeviceType>();
+  } else {
+    here.for_each(n, UnpackOne{here.bubbles().radius, buf, first});
+    atomKK->modified(execution_space, RADIUS_MASK);
+  }
 }
 
 /* ----------------------------------------------------------------------
@@ -313,6 +484,24 @@ template <unsigned WHAT, bool CHUNKS, class Loop> struct Contacts {
   }
 };
 
+// the sums over all bubbles that exchange through the liquid needs come with it
+
+template <int D, unsigned WHAT, bool CHUNKS, class Loop> struct SummedContacts {
+  static constexpr const char *NAME = "foam: contacts and free surface";
+  static constexpr int SLOT = 0;
+  Loop loop;
+  int chunk, nlocal;
+  bool clear;
+  Foam::LiquidLaw law;
+  KOKKOS_INLINE_FUNCTION void operator()(int n, Foam::SumsOfOne &all) const
+  {
+    Contacts<WHAT, CHUNKS, Loop>{loop, chunk, nlocal, clear}(n);
+    const int begin = n * chunk, end = begin + chunk < nlocal ? begin + chunk : nlocal;
+    for (int i = begin; i < end; i++)
+      Foam::add_free_surface<D>(law, loop.b.radius(i), loop.sums.area[i], all);
+  }
+};
+
 template <unsigned WHAT, bool CHUNKS, class Loop, class DeviceType> struct TalliedContacts {
   static constexpr const char *NAME = "foam: contacts, energy and virial";
   Loop loop;
@@ -334,7 +523,8 @@ template <unsigned WHAT, bool CHUNKS, class Loop, class DeviceType> struct Talli
 
 template <class DeviceType> void PairDurianFoamKokkos<DeviceType>::gather_contacts(unsigned what)
 {
-  look_at_list();
+  take_list();
+  free_surface_known = false;
   const bool flat = domain->dimension == 2;
   const bool done = Foam::for_each_gathered(
       what, [&]<unsigned WHAT>() { flat ? gather_in<2, WHAT>() : gather_in<3, WHAT>(); });
@@ -371,7 +561,12 @@ void PairDurianFoamKokkos<DeviceType>::gather_in()
     }
     using Loop = Foam::ContactLoop<D, WHAT, !CHUNKS, B, Rows, Foam::NoTally>;
     const Loop loop{here.bubbles(), rows, springs, sums, !clear};
-    here.for_each(n, Contacts<WHAT, CHUNKS, Loop>{loop, chunk, nlocal, clear});
+    if constexpr ((WHAT & Foam::FORCE) && (WHAT & Foam::AREA)) {
+      free_surface = here.sums(
+          n, SummedContacts<D, WHAT, CHUNKS, Loop>{loop, chunk, nlocal, clear, liquid_law});
+      free_surface_known = true;
+    } else
+      here.for_each(n, Contacts<WHAT, CHUNKS, Loop>{loop, chunk, nlocal, clear});
   };
   if constexpr (FoamKokkos<DeviceType>::ON_HOST) {
     if (chunk > 1) return run.template operator()<true>();

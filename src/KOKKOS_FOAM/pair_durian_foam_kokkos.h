@@ -19,6 +19,7 @@ PairStyle(durian/foam/kk/host,PairDurianFoamKokkos<LMPHostType>);
 #define LMP_PAIR_DURIAN_FOAM_KOKKOS_H
 
 #include "foam_kokkos.h"
+#include "kokkos_base.h"
 #include "neigh_list_kokkos.h"
 #include "pair_durian_foam.h"
 
@@ -49,7 +50,30 @@ template <class DeviceType> struct FoamRows {
   }
 };
 
-template <class DeviceType> class PairDurianFoamKokkos : public PairDurianFoam {
+// Ghosts of a single rank: images of owned bubbles, some boxes away. As a body, counts these.
+
+template <class DeviceType> struct FoamGhosts {
+  static constexpr const char *NAME = "foam: boxes of ghosts";
+  FoamKokkosBubbles<DeviceType> b;
+  typename ArrayTypes<DeviceType>::t_int_1d owner;
+  Kokkos::View<int *[3], Kokkos::LayoutRight, DeviceType> boxes;
+  int nlocal;
+  double xprd, yprd, zprd, xy, xz, yz;
+  KOKKOS_INLINE_FUNCTION void operator()(int n) const
+  {
+    const int i = nlocal + n, o = owner(i);
+    const double dz = b.x(i, 2) - b.x(o, 2);
+    const double nz = Kokkos::round(dz / zprd);
+    const double dy = b.x(i, 1) - b.x(o, 1) - nz * yz;
+    const double ny = Kokkos::round(dy / yprd);
+    const double dx = b.x(i, 0) - b.x(o, 0) - nz * xz - ny * xy;
+    boxes(n, 0) = static_cast<int>(Kokkos::round(dx / xprd));
+    boxes(n, 1) = static_cast<int>(ny);
+    boxes(n, 2) = static_cast<int>(nz);
+  }
+};
+
+template <class DeviceType> class PairDurianFoamKokkos : public PairDurianFoam, public KokkosBase {
  public:
   using device_type = DeviceType;
   using AT = ArrayTypes<DeviceType>;
@@ -60,6 +84,22 @@ template <class DeviceType> class PairDurianFoamKokkos : public PairDurianFoam {
   void compute(int, int) override;
   void init_style() override;
   double memory_usage() override;
+
+  // LAMMPS' communication on a device leaves out the radii that atom_style sphere 1 asks for
+
+  bool sends_radii() const override;
+  int pack_forward_comm(int, int *, double *, int, int *) override;
+  void unpack_forward_comm(int, int, double *) override;
+  int pack_forward_comm_kokkos(int, DAT::tdual_int_1d, DAT::tdual_double_1d &, int, int *) override;
+  void unpack_forward_comm_kokkos(int, int, DAT::tdual_double_1d &) override;
+
+  // On a single rank each ghost is the image of an owned bubble: one loop brings them up to date,
+  // in everything instead of LAMMPS' communication, or in radii beside it.  False if there is none.
+
+  enum class Ghosts { RADII, EVERYTHING };
+  bool refresh_ghosts(Ghosts);
+
+  void take_list();    // LAMMPS has built it, and ghosts are where their owners are
 
   using PairDurianFoam::gather;
 
@@ -75,12 +115,20 @@ template <class DeviceType> class PairDurianFoamKokkos : public PairDurianFoam {
   bool rows_known = false;
   bigint rows_ncalls = -1, rows_lastcall = -1;
 
+  DAT::tdual_int_1d k_owner;    // of a ghost, on a single rank
+  using Boxes = Kokkos::View<int *[3], Kokkos::LayoutRight, DeviceType>;
+  Boxes boxes;    // from owner to ghost
+  enum { RADII, OWNERS } sending = RADII;
+  bool owners_known = false;    // for the present list
+  bool ghosts_fresh = false;    // just refreshed in everything
+
   Kokkos::View<double *, DeviceType> sigma0_there;
   DAT::ttransform_kkacc_1d k_eatom;
   DAT::ttransform_kkacc_1d_6 k_vatom;
 
-  void look_at_list();
   void make_rows();
+  void make_owners();
+  FoamGhosts<DeviceType> ghosts() const;
   template <int D, unsigned WHAT> void gather_in();
 };
 
