@@ -64,6 +64,10 @@ void ComputeFoamBubble::init()
 {
   pair = dynamic_cast<PairDurianFoam *>(force->pair_match("durian/foam", 0));
   if (!pair) error->all(FLERR, "Compute foam/bubble needs pair_style durian/foam");
+  if (pair->kokkosable != kokkosable || (kokkosable && pair->execution_space != execution_space))
+    error->all(FLERR,
+               "Compute foam/bubble and pair style durian/foam must run in the same place: use the "
+               "suffix kk for all styles of the foam or for none");
   gas = nullptr;
   for (auto &ifix : modify->get_fix_list())
     if (auto *found = dynamic_cast<FixFoamCoarsen *>(ifix)) gas = found;

@@ -178,6 +178,7 @@ void FixFoamIntegrate::init()
   // what is switched off is not gathered
 
   pair->gas_wanted = gas ? gas->wanted() : 0;
+  pair->radii_change = gas != nullptr;
   if (gas) pair->liquid_law = gas->liquid_law();
   if (pair->neighbor_drag) lags.use(atom->nmax);
 }
@@ -201,15 +202,25 @@ void FixFoamIntegrate::check_bubbles()
   host_reads();
   FoamTotals mine;
   for (int i = 0; i < atom->nlocal; i++) {
-    const double R = atom->radius[i];
+    const double R = atom->radius[i], *const x = atom->x[i];
     if (!(R > 0.0) || !std::isfinite(R)) mine.max[0] = MAX(mine.max[0], double(atom->tag[i]));
+    if (!std::isfinite(x[0] + x[1] + x[2])) mine.max[1] = MAX(mine.max[1], double(atom->tag[i]));
   }
-  const double bad = reduce(mine).max[0];
-  if (bad > 0.0)
+  const FoamTotals bad = reduce(mine);
+  if (bad.max[0] > 0.0)
     error->all(FLERR,
                "Fix {}: the radius of bubble {:.0f} is zero, negative or not a number: "
                "set its diameter or delete it",
-               style, bad);
+               style, bad.max[0]);
+  if (bad.max[1] > 0.0)
+    error->all(FLERR, "Fix {}: Non-numeric atom coords of bubble {:.0f}", style, bad.max[1]);
+
+  if (pair->neighbor_drag && domain->deform_vremap && force->newton_pair && !pair->kokkosable)
+    error->all(FLERR,
+               "Fix {}: pair style durian/foam with drag neighbor and fix deform with remap v "
+               "need newton off: a velocity sent back from a ghost is that on its own side of the "
+               "boundary",
+               style);
 
   // q follows R where a command has changed R since the last run
 
@@ -385,6 +396,7 @@ void FixFoamIntegrate::initial_integrate(int)
 {
   if (output->next_time_dump_any == update->ntimestep) dump_foreseen = update->ntimestep;
   bool refused = false, first = true;
+  if (domain->box_change) list_is_new = false;    // the box has moved since
 
   while (true) {
     const double step = MIN(h, largest_step());
@@ -670,7 +682,11 @@ void FixFoamIntegrate::pre_exchange()
   const double mine = largest_radius();
   double largest;
   MPI_Allreduce(&mine, &largest, 1, MPI_DOUBLE, MPI_MAX, world);
-  if (restart_due || pair->outgrown(largest)) pair->refresh();
+  if (restart_due || pair->outgrown(largest)) {
+    if (delay_given >= 0) std::swap(neighbor->delay, delay_given);    // LAMMPS may print it
+    pair->refresh();
+    if (delay_given >= 0) std::swap(neighbor->delay, delay_given);
+  }
   if (restart_due) {
     atom->setup();
     atom->nextsort = update->ntimestep;

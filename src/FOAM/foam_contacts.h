@@ -59,9 +59,9 @@ struct NoTally {
   static constexpr bool ON = false;
 };
 
-// List gives a row for bubble number n of the loop:
-//   row.i, row.size, row[m]      the bubble and its m-th partner
-//   row.both(m)                  is this the only time that the pair occurs: then both get their share
+// List gives a row for bubble number n of the loop: its index, row.i, and
+//   row.for_each(visit)    calls visit(j, both) for each of its partners j; both: this is the only
+//                          time that the pair occurs, so both get their share
 //
 // Tally, if ON, is told the energy and the force of each pair.
 // A bubble's own sums are added to what is there, or, if ASSIGN, take its place.
@@ -75,7 +75,12 @@ template <int D, unsigned WHAT, bool ASSIGN, class B, class List, class Tally> s
 
   FOAM_FUNCTION void operator()(int n, Tally &tally) const
   {
+    // numbers are written through pointers that might, for all the compiler knows, point to members
+    // of this body: what the inner loop reads is taken out of it
+
     const auto row = list.row(n);
+    const ContactSums s = sums;
+    const double Rin = springs.Rin;
     const int i = row.i;
     const double Ri = b.radius(i);
     const double xi[3] = {b.x(i, 0), b.x(i, 1), D == 3 ? b.x(i, 2) : 0.0};
@@ -85,23 +90,20 @@ template <int D, unsigned WHAT, bool ASSIGN, class B, class List, class Tally> s
     double fi[3] = {}, vsum_i[3] = {};
     double contacts_i = 0.0, area_i = 0.0, film_i = 0.0, espring_i = 0.0, edurian_i = 0.0;
 
-    const int size = Ri > 0.0 ? row.size : 0;    // the dead touch nobody
-    for (int m = 0; m < size; m++) {
-      const int j = row[m];
+    auto visit = [&](int j, auto both) {
       const double Rj = b.radius(j);
       const double Rsum = Ri + Rj;
       const double del[3] = {xi[0] - b.x(j, 0), xi[1] - b.x(j, 1),
                              D == 3 ? xi[2] - b.x(j, 2) : 0.0};
       const double rsq = del[0] * del[0] + del[1] * del[1] + del[2] * del[2];
-      if (!(rsq < Rsum * Rsum) || !(Rj > 0.0)) continue;
+      if (!(rsq < Rsum * Rsum) || !(Rj > 0.0)) return;
 
-      const bool both = row.both(m, j);
       const double r = std::sqrt(rsq);
       const double overlap = Rsum - r;
       const double sigma = sigma0_i ? sigma0_i[b.type(j)] : sigma0;
 
       if constexpr (WHAT & FORCE) {
-        const double F = spring_force(sigma * springs.Rin, overlap, Rsum);
+        const double F = spring_force(sigma * Rin, overlap, Rsum);
         double F_over_r = 0.0;    // stays 0 at r = 0, where force and virial have no direction
         double F_xyz[3] = {};
         if (r > 0.0) {
@@ -113,40 +115,41 @@ template <int D, unsigned WHAT, bool ASSIGN, class B, class List, class Tally> s
         if (both)
           for (int k = 0; k < D; k++) b.f(j, k) -= F_xyz[k];
         if constexpr (Tally::ON)
-          tally.pair(i, j, both, spring_energy(sigma * springs.Rin, overlap, Rsum), F_over_r, del);
+          tally.pair(i, j, both, spring_energy(sigma * Rin, overlap, Rsum), F_over_r, del);
       }
       if constexpr (WHAT & CONTACTS) {
         contacts_i += 1.0;
-        if (both) sums.contacts[j] += 1.0;
+        if (both) s.contacts[j] += 1.0;
       }
       if constexpr (WHAT & VSUM) {
         for (int k = 0; k < D; k++) vsum_i[k] += b.v(j, k);
         if (both)
-          for (int k = 0; k < D; k++) sums.vsum[k][j] += b.v(i, k);
+          for (int k = 0; k < D; k++) s.vsum[k][j] += b.v(i, k);
       }
       if constexpr (WHAT & FILM) {
         const double A = contact_area<D>(r, Ri, Rj);
         const double exchange = film_exchange(A, Ri, Rj);
         film_i += exchange;
-        if (both) sums.film[j] -= exchange;
+        if (both) s.film[j] -= exchange;
         if constexpr (WHAT & AREA) {
           area_i += A;
-          if (both) sums.area[j] += A;
+          if (both) s.area[j] += A;
         }
       }
       if constexpr (WHAT & ENERGY) {
-        const double half_spring = 0.5 * spring_energy(sigma * springs.Rin, overlap, Rsum);
+        const double half_spring = 0.5 * spring_energy(sigma * Rin, overlap, Rsum);
         const double durian = durian_energy(sigma, overlap);
         espring_i += half_spring;
         edurian_i += durian;
         if (both) {
-          sums.espring[j] += half_spring;
-          sums.edurian[j] += durian;
+          s.espring[j] += half_spring;
+          s.edurian[j] += durian;
         }
       }
-    }
+    };
+    if (Ri > 0.0) row.for_each(visit);    // the dead touch nobody
 
-    if constexpr (ASSIGN) sums.clear<WHAT>(i);
+    if constexpr (ASSIGN) s.clear<WHAT>(i);
     if constexpr (WHAT & FORCE)
       for (int k = 0; k < 3; k++) {
         if (ASSIGN && !forces_add)
@@ -154,14 +157,14 @@ template <int D, unsigned WHAT, bool ASSIGN, class B, class List, class Tally> s
         else if (k < D)
           b.f(i, k) += fi[k];
       }
-    if constexpr (WHAT & CONTACTS) sums.contacts[i] += contacts_i;
+    if constexpr (WHAT & CONTACTS) s.contacts[i] += contacts_i;
     if constexpr (WHAT & VSUM)
-      for (int k = 0; k < D; k++) sums.vsum[k][i] += vsum_i[k];
-    if constexpr (WHAT & FILM) sums.film[i] += film_i;
-    if constexpr (WHAT & AREA) sums.area[i] += area_i;
+      for (int k = 0; k < D; k++) s.vsum[k][i] += vsum_i[k];
+    if constexpr (WHAT & FILM) s.film[i] += film_i;
+    if constexpr (WHAT & AREA) s.area[i] += area_i;
     if constexpr (WHAT & ENERGY) {
-      sums.espring[i] += espring_i;
-      sums.edurian[i] += edurian_i;
+      s.espring[i] += espring_i;
+      s.edurian[i] += edurian_i;
     }
   }
 };

@@ -99,24 +99,30 @@ void PairDurianFoam::gather(unsigned what)
 
 namespace {
 
-struct HalfList {
+template <bool NEWTON> struct HalfList {
   const int *ilist, *numneigh;
   const int *const *firstneigh;
-  bool newton;
   int nlocal;
 
   struct Row {
     int i, size;
     const int *partners;
-    bool newton;
     int nlocal;
-    int operator[](int m) const { return partners[m] & NEIGHMASK; }
-    bool both(int, int j) const { return newton || j < nlocal; }
+    template <class Visit> void for_each(const Visit &visit) const
+    {
+      for (int m = 0; m < size; m++) {
+        const int j = partners[m] & NEIGHMASK;
+        if constexpr (NEWTON)
+          visit(j, std::true_type());
+        else
+          visit(j, j < nlocal);
+      }
+    }
   };
   Row row(int n) const
   {
     const int i = ilist[n];
-    return {i, numneigh[i], firstneigh[i], newton, nlocal};
+    return {i, numneigh[i], firstneigh[i], nlocal};
   }
 };
 
@@ -147,21 +153,25 @@ template <int D, unsigned WHAT> void PairDurianFoam::gather_in()
 {
   FoamHost here(lmp);
   const int nlocal = atom->nlocal, newton = force->newton_pair;
-  const HalfList half{list->ilist, list->numneigh, list->firstneigh, newton != 0, nlocal};
   const Foam::Springs springs{sigma0[0], atom->ntypes, rin};
   const Foam::ContactSums sums = contact_sums(here);
   const int nall = nlocal + (newton ? atom->nghost : 0);
   for (int i = 0; i < nall; i++) sums.clear<WHAT>(i);
 
-  auto loop = [&]<class T>(T tally) {
-    const Foam::ContactLoop<D, WHAT, false, Foam::HostBubbles, HalfList, T> body{
-        here.bubbles(), half, springs, sums, true};
+  auto loop = [&]<bool NEWTON, class T>(T tally) {
+    using List = HalfList<NEWTON>;
+    const List half{list->ilist, list->numneigh, list->firstneigh, nlocal};
+    const Foam::ContactLoop<D, WHAT, false, Foam::HostBubbles, List, T> body{here.bubbles(), half,
+                                                                             springs, sums, true};
     for (int n = 0; n < list->inum; n++) body(n, tally);
   };
-  if (evflag)
-    loop(Tally{this, nlocal, newton});
-  else
-    loop(Foam::NoTally());
+  if (evflag) {
+    const Tally tally{this, nlocal, newton};
+    newton ? loop.template operator()<true>(tally) : loop.template operator()<false>(tally);
+  } else {
+    const Foam::NoTally none;
+    newton ? loop.template operator()<true>(none) : loop.template operator()<false>(none);
+  }
 }
 
 /* ---------------------------------------------------------------------- */

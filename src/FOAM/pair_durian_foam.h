@@ -62,6 +62,7 @@ class PairDurianFoam : public Pair {
   Foam::Sums free_surface;
   bool free_surface_known = false;
 
+  bool radii_change = false;                            // set by the integrator
   virtual bool sends_radii() const { return false; }    // to ghosts, in compute(): else LAMMPS does
 
   // sums over the contacts of each bubble, as gathered last; ghosts' parts are added in

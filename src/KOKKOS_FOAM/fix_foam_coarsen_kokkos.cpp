@@ -21,6 +21,7 @@ template <class DeviceType>
 FixFoamCoarsenKokkos<DeviceType>::FixFoamCoarsenKokkos(LAMMPS *lmp, int narg, char **arg)
     : FixFoamCoarsen(lmp, narg, arg), here(lmp, EMPTY_MASK)
 {
+  foam_strip_suffix(style);
   kokkosable = 1;
   execution_space = FoamKokkos<DeviceType>::SPACE;
   datamask_read = datamask_modify = EMPTY_MASK;
@@ -71,7 +72,7 @@ namespace {
 template <class DeviceType> struct Listing {
   using Numbers = typename ArrayTypes<DeviceType>::t_int_1d;
   using value_type = int;
-  typename ArrayTypes<DeviceType>::t_kkfloat_1d radius;
+  decltype(FoamKokkos<DeviceType>::Bubbles::radius) radius;
 };
 
 // the dead, in order

@@ -79,6 +79,7 @@ class FixFoamIntegrateKokkos : public Style, public KokkosBase {
   FixFoamIntegrateKokkos(LAMMPS *lmp, int narg, char **arg)
       : Style(lmp, narg, arg), here(lmp, X_MASK | V_MASK | RADIUS_MASK)
   {
+    foam_strip_suffix(this->style);
     this->kokkosable = 1;
     this->exchange_comm_device = this->sort_device = std::is_same_v<DeviceType, LMPDeviceType>;
     this->execution_space = FoamKokkos<DeviceType>::SPACE;

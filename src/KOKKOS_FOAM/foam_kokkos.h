@@ -17,6 +17,8 @@
 #include "atom_masks.h"
 #include "kokkos_type.h"
 
+#include <cstring>
+
 namespace LAMMPS_NS {
 
 // Columns on host and device. Whoever asks for one side may write to it, so a change of sides
@@ -53,6 +55,13 @@ template <class DeviceType> class FoamKokkosStorage : public FoamStorage {
   using Block = Kokkos::DualView<double **, Kokkos::LayoutLeft, DeviceType>;
   Block block;
 };
+
+// Restart files match fixes by style: the name without suffix, so that runs go on with or without
+
+inline void foam_strip_suffix(char *style)
+{
+  if (char *suffix = std::strstr(style, "/kk")) *suffix = '\0';
+}
 
 // LAMMPS' bubbles on the device, in its precision (KOKKOS_PREC): see Foam::HostBubbles. Where that
 // is single, an integrator keeps what coordinates have beyond it in columns of its own.
@@ -107,10 +116,16 @@ template <class Value, class Space> class FoamJoin {
 
 template <class DeviceType> class FoamKokkos : protected Pointers {
  public:
-  using Bubbles = FoamKokkosBubbles<DeviceType>;
   static constexpr ExecutionSpace SPACE = ExecutionSpaceFromDevice<DeviceType>::space;
   static constexpr bool ON_HOST =
       Kokkos::SpaceAccessibility<Kokkos::HostSpace, typename DeviceType::memory_space>::accessible;
+
+  // On the host, in double precision, arrays are laid out as without KOKKOS, and pointers to them
+  // are faster than Views.
+
+  static constexpr bool AS_WITHOUT = ON_HOST && FoamKokkosBubbles<DeviceType>::DOUBLE &&
+                                     !DAT::ttransform_kkacc_1d_3::NEED_TRANSFORM;
+  using Bubbles = std::conditional_t<AS_WITHOUT, Foam::HostBubbles, FoamKokkosBubbles<DeviceType>>;
 
   // changes: masks of LAMMPS' arrays that the bodies may write to
 
@@ -123,13 +138,20 @@ template <class DeviceType> class FoamKokkos : protected Pointers {
   {
     atomKK->sync(SPACE, X_MASK | V_MASK | F_MASK | RADIUS_MASK | TYPE_MASK | TAG_MASK);
     atomKK->modified(SPACE, written);
-    auto low_at = [&](int k) {
-      return low ? low->on_device(k) : nullptr;
-    };
-    return {atomKK->k_x.view<DeviceType>(),    atomKK->k_v.view<DeviceType>(),
-            atomKK->k_f.view<DeviceType>(),    atomKK->k_radius.view<DeviceType>(),
-            atomKK->k_type.view<DeviceType>(), atomKK->k_tag.view<DeviceType>(),
-            {low_at(0), low_at(1), low_at(2)}};
+    const auto x = atomKK->k_x.view<DeviceType>();
+    const auto v = atomKK->k_v.view<DeviceType>();
+    const auto f = atomKK->k_f.view<DeviceType>();
+    const auto radius = atomKK->k_radius.view<DeviceType>();
+    const auto type = atomKK->k_type.view<DeviceType>();
+    const auto tag = atomKK->k_tag.view<DeviceType>();
+    if constexpr (AS_WITHOUT) {
+      return {{x.data()}, {v.data()}, {f.data()}, {radius.data()}, {type.data()}, {tag.data()}};
+    } else {
+      auto low_at = [&](int k) {
+        return low ? low->on_device(k) : nullptr;
+      };
+      return {x, v, f, radius, type, tag, {low_at(0), low_at(1), low_at(2)}};
+    }
   }
   static double *column(FoamColumns &columns, int c) { return columns.on_device(c); }
   static void keep(FoamColumns &columns)

@@ -12,15 +12,11 @@
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
-#include "fix.h"
 #include "force.h"
 #include "kokkos.h"
 #include "memory_kokkos.h"
-#include "modify.h"
 #include "neigh_request.h"
 #include "neighbor.h"
-
-#include <cstring>
 
 using namespace LAMMPS_NS;
 
@@ -53,6 +49,11 @@ template <class DeviceType> void PairDurianFoamKokkos<DeviceType>::init_style()
                            !std::is_same_v<DeviceType, LMPDeviceType>);
   request->set_kokkos_device(std::is_same_v<DeviceType, LMPDeviceType>);
   rows_known = owners_known = ghosts_fresh = false;
+
+  if (comm->style == Comm::TILED && !lmp->kokkos->forward_comm_legacy)
+    error->all(FLERR,
+               "Pair style durian/foam/kk with comm_style tiled needs forward communication on the "
+               "host: use package kokkos comm/forward no");
 
   // Forces of owned bubbles only, written and not added to: then LAMMPS need not clear them first
 
@@ -168,22 +169,28 @@ template <class DeviceType> struct FillRows : ListedPairs<DeviceType> {
   }
 };
 
-// threads fill a row in any order: in order of partners, sums come out the same every time
+// Threads fill a row in any order, and LAMMPS may number ghosts in any order on a device: in order
+// of partners' IDs, the sums of a row come out the same every time.
 
 template <class DeviceType> struct SortRows : ListedPairs<DeviceType> {
   static constexpr const char *NAME = "foam: sort rows";
+  typename ArrayTypes<DeviceType>::t_tagint_1d tag;
   KOKKOS_INLINE_FUNCTION void operator()(int i) const
   {
     const int begin = this->rows.first(i), end = this->rows.first(i + 1);
     sort(begin, begin + this->rows.shared(i));
     sort(begin + this->rows.shared(i), end);
   }
+  KOKKOS_INLINE_FUNCTION bool behind(int j, int k) const
+  {
+    return tag(j) != tag(k) ? tag(j) > tag(k) : j > k;
+  }
   KOKKOS_INLINE_FUNCTION void sort(int begin, int end) const
   {
     for (int m = begin + 1; m < end; m++) {
       const int j = this->rows.partner(m);
       int k = m;
-      for (; k > begin && this->rows.partner(k - 1) > j; k--)
+      for (; k > begin && behind(this->rows.partner(k - 1), j); k--)
         this->rows.partner(k) = this->rows.partner(k - 1);
       this->rows.partner(k) = j;
     }
@@ -243,7 +250,8 @@ template <class DeviceType> void PairDurianFoamKokkos<DeviceType>::make_rows()
   ListedPairs<DeviceType> placed = pairs;
   placed.rows = rows;
   here.for_each(list->inum, FillRows<DeviceType>{placed});
-  here.for_each(nlocal, SortRows<DeviceType>{placed});
+  atomKK->sync(execution_space, TAG_MASK);
+  here.for_each(nlocal, SortRows<DeviceType>{placed, atomKK->k_tag.view<DeviceType>()});
 }
 
 /* ----------------------------------------------------------------------
@@ -302,7 +310,7 @@ template <class View> UnpackOne(View, const double *, int) -> UnpackOne<View>;
 template <class DeviceType> void PairDurianFoamKokkos<DeviceType>::make_owners()
 {
   owners_known = ghosts_fresh = false;
-  if (comm->nprocs > 1 || strcmp(atom->atom_style, "sphere") != 0) return;
+  if (comm->nprocs > 1 || !utils::strmatch(atom->atom_style, "^sphere")) return;
   const int nlocal = atom->nlocal, nghost = atom->nghost;
   if (static_cast<int>(k_owner.extent(0)) < nlocal + nghost)
     k_owner = DAT::tdual_int_1d("durian/foam:owner", atom->nmax);
@@ -330,12 +338,13 @@ template <class DeviceType> FoamGhosts<DeviceType> PairDurianFoamKokkos<DeviceTy
 template <class DeviceType> bool PairDurianFoamKokkos<DeviceType>::refresh_ghosts(Ghosts what)
 {
   if (!owners_known) return false;
+  const bool velocities = comm->ghost_velocity;
+  if (what == Ghosts::EVERYTHING && velocities && domain->deform_vremap) return false;
   const auto all = ghosts();
   if (what == Ghosts::RADII) {
     here.for_each(atom->nghost, RefreshGhosts<DeviceType, false>{all, false});
     atomKK->modified(execution_space, RADIUS_MASK);
   } else {
-    const bool velocities = comm->ghost_velocity;
     here.for_each(atom->nghost, RefreshGhosts<DeviceType, true>{all, velocities});
     atomKK->modified(execution_space, X_MASK | RADIUS_MASK | (velocities ? V_MASK : EMPTY_MASK));
     ghosts_fresh = true;
@@ -345,10 +354,7 @@ template <class DeviceType> bool PairDurianFoamKokkos<DeviceType>::refresh_ghost
 
 template <class DeviceType> bool PairDurianFoamKokkos<DeviceType>::sends_radii() const
 {
-  if (lmp->kokkos->forward_comm_legacy) return false;
-  bool change = gas_wanted;
-  for (auto &ifix : modify->get_fix_list()) change = change || ifix->diam_flag;
-  return change;
+  return radii_change && !lmp->kokkos->forward_comm_legacy;
 }
 
 template <class DeviceType>
@@ -535,7 +541,7 @@ template <class DeviceType>
 template <int D, unsigned WHAT>
 void PairDurianFoamKokkos<DeviceType>::gather_in()
 {
-  using B = FoamKokkosBubbles<DeviceType>;
+  using B = typename FoamKokkos<DeviceType>::Bubbles;
   using Rows = FoamRows<DeviceType>;
   const int nlocal = atom->nlocal;
   const bool clear = fuse_force_clear_flag;

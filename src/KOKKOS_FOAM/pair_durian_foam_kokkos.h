@@ -29,7 +29,7 @@ namespace LAMMPS_NS {
 // and would be several times as long.  Bubbles are cut into chunks of consecutive ones, and a
 // chunk is the work of one thread.  A pair within a chunk occurs once, and both partners get
 // their share; any other occurs in the rows of both partners, and each takes its own.  So nothing
-// is atomic, nothing is sent back from ghosts, and the order of summation is always the same.
+// is atomic, nothing is sent back from ghosts, and the sums of a bubble are always of the same order.
 // A chunk of one bubble makes it a full list, a single chunk a half list.
 
 template <class DeviceType> struct FoamRows {
@@ -41,8 +41,10 @@ template <class DeviceType> struct FoamRows {
   struct Row {
     int i, size, shared;
     const int *partners;
-    KOKKOS_INLINE_FUNCTION int operator[](int m) const { return partners[m]; }
-    KOKKOS_INLINE_FUNCTION bool both(int m, int) const { return m < shared; }
+    template <class Visit> KOKKOS_INLINE_FUNCTION void for_each(const Visit &visit) const
+    {
+      for (int m = 0; m < size; m++) visit(partners[m], m < shared);
+    }
   };
   KOKKOS_INLINE_FUNCTION Row row(int i) const
   {
@@ -54,7 +56,7 @@ template <class DeviceType> struct FoamRows {
 
 template <class DeviceType> struct FoamGhosts {
   static constexpr const char *NAME = "foam: boxes of ghosts";
-  FoamKokkosBubbles<DeviceType> b;
+  typename FoamKokkos<DeviceType>::Bubbles b;
   typename ArrayTypes<DeviceType>::t_int_1d owner;
   Kokkos::View<int *[3], Kokkos::LayoutRight, DeviceType> boxes;
   int nlocal;
