@@ -102,49 +102,49 @@ template <int D, unsigned WHAT, bool ASSIGN, class B, class List, class Tally> s
       const double overlap = Rsum - r;
       const double sigma = sigma0_i ? sigma0_i[b.type(j)] : sigma0;
 
+      // what there is to share, then the shares: j's only if the pair is not in a row of its own
+
+      [[maybe_unused]] double F_xyz[3] = {};
+      [[maybe_unused]] double A = 0.0, exchange = 0.0, half_spring = 0.0, durian = 0.0;
       if constexpr (WHAT & FORCE) {
         const double F = spring_force(sigma * Rin, overlap, Rsum);
         double F_over_r = 0.0;    // stays 0 at r = 0, where force and virial have no direction
-        double F_xyz[3] = {};
         if (r > 0.0) {
           F_over_r = F / r;
           for (int k = 0; k < D; k++) F_xyz[k] = F_over_r * del[k];
         } else
           F_xyz[0] = coincident_sign(b.tag(i), b.tag(j)) * F;
-        for (int k = 0; k < D; k++) fi[k] += F_xyz[k];
-        if (both)
-          for (int k = 0; k < D; k++) b.f(j, k) -= F_xyz[k];
         if constexpr (Tally::ON)
           tally.pair(i, j, both, spring_energy(sigma * Rin, overlap, Rsum), F_over_r, del);
+        for (int k = 0; k < D; k++) fi[k] += F_xyz[k];
       }
-      if constexpr (WHAT & CONTACTS) {
-        contacts_i += 1.0;
-        if (both) s.contacts[j] += 1.0;
-      }
-      if constexpr (WHAT & VSUM) {
+      if constexpr (WHAT & CONTACTS) contacts_i += 1.0;
+      if constexpr (WHAT & VSUM)
         for (int k = 0; k < D; k++) vsum_i[k] += b.v(j, k);
-        if (both)
-          for (int k = 0; k < D; k++) s.vsum[k][j] += b.v(i, k);
-      }
       if constexpr (WHAT & FILM) {
-        const double A = contact_area<D>(r, Ri, Rj);
-        const double exchange = film_exchange(A, Ri, Rj);
+        A = contact_area<D>(r, Ri, Rj);
+        exchange = film_exchange(A, Ri, Rj);
         film_i += exchange;
-        if (both) s.film[j] -= exchange;
-        if constexpr (WHAT & AREA) {
-          area_i += A;
-          if (both) s.area[j] += A;
-        }
+        if constexpr (WHAT & AREA) area_i += A;
       }
       if constexpr (WHAT & ENERGY) {
-        const double half_spring = 0.5 * spring_energy(sigma * Rin, overlap, Rsum);
-        const double durian = durian_energy(sigma, overlap);
+        half_spring = 0.5 * spring_energy(sigma * Rin, overlap, Rsum);
+        durian = durian_energy(sigma, overlap);
         espring_i += half_spring;
         edurian_i += durian;
-        if (both) {
-          s.espring[j] += half_spring;
-          s.edurian[j] += durian;
-        }
+      }
+
+      if (!both) return;
+      if constexpr (WHAT & FORCE)
+        for (int k = 0; k < D; k++) b.f(j, k) -= F_xyz[k];
+      if constexpr (WHAT & CONTACTS) s.contacts[j] += 1.0;
+      if constexpr (WHAT & VSUM)
+        for (int k = 0; k < D; k++) s.vsum[k][j] += b.v(i, k);
+      if constexpr (WHAT & FILM) s.film[j] -= exchange;
+      if constexpr (WHAT & AREA) s.area[j] += A;
+      if constexpr (WHAT & ENERGY) {
+        s.espring[j] += half_spring;
+        s.edurian[j] += durian;
       }
     };
     if (Ri > 0.0) row.for_each(visit);    // the dead touch nobody

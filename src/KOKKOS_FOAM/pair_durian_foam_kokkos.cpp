@@ -107,9 +107,15 @@ template <class DeviceType> struct ListedPairs {
   typename FoamRows<DeviceType>::Numbers filled;    // single pairs of a row so far
   int nlocal, chunk;
 
-  KOKKOS_INLINE_FUNCTION bool within_chunk(int i, int j) const
+  struct Chunk {
+    int begin, end;
+    KOKKOS_INLINE_FUNCTION bool has(int j) const { return j >= begin && j < end; }
+  };
+  KOKKOS_INLINE_FUNCTION Chunk chunk_of(int i) const
   {
-    return chunk > 1 && j < nlocal && i / chunk == j / chunk;
+    if (chunk == 1) return {0, 0};    // all pairs are single
+    const int begin = i / chunk * chunk, end = begin + chunk;
+    return {begin, end < nlocal ? end : nlocal};
   }
 };
 
@@ -118,10 +124,11 @@ template <class DeviceType> struct CountPairs : ListedPairs<DeviceType> {
   KOKKOS_INLINE_FUNCTION void operator()(int n) const
   {
     const int i = this->ilist(n), size = this->numneigh(i);
+    const auto mine = this->chunk_of(i);
     int shared = 0, single = 0;
     for (int m = 0; m < size; m++) {
       const int j = this->neighbors(i, m) & NEIGHMASK;
-      if (this->within_chunk(i, j))
+      if (mine.has(j))
         shared++;
       else {
         single++;
@@ -151,10 +158,11 @@ template <class DeviceType> struct FillRows : ListedPairs<DeviceType> {
   KOKKOS_INLINE_FUNCTION void operator()(int n) const
   {
     const int i = this->ilist(n), size = this->numneigh(i);
+    const auto mine = this->chunk_of(i);
     int shared = 0;
     for (int m = 0; m < size; m++) {
       const int j = this->neighbors(i, m) & NEIGHMASK;
-      if (this->within_chunk(i, j))
+      if (mine.has(j))
         this->rows.partner(this->rows.first(i) + shared++) = j;
       else {
         append(i, j);
