@@ -245,7 +245,7 @@ def repeats_for(args, bubbles):
 
 
 class Campaign:
-    """All measurements, smallest packings first; what fails or is too late is noted, and missing."""
+    """All measurements, smallest packings first; what fails or is too late is noted, not there."""
 
     def __init__(self, args, setups, tool, report):
         self.args, self.setups, self.tool, self.report = args, setups, tool, report
