@@ -679,8 +679,7 @@ void FixFoamIntegrate::rebuild_lists()
 void FixFoamIntegrate::pre_exchange()
 {
   const bool restart_due = update->ntimestep == output->next_restart;
-  const double mine = largest_radius();
-  double largest;
+  double mine = largest_radius(), largest;
   MPI_Allreduce(&mine, &largest, 1, MPI_DOUBLE, MPI_MAX, world);
   if (restart_due || pair->outgrown(largest)) {
     if (delay_given >= 0) std::swap(neighbor->delay, delay_given);    // LAMMPS may print it

@@ -82,6 +82,7 @@ void PairDurianFoam::compute(int eflag, int vflag)
 void PairDurianFoam::gather()
 {
   ev_unset();
+  if (domain->box_change) comm->forward_comm();    // at output the box may have moved once more
   gather(Foam::TO_LOOK_AT);
 }
 
@@ -217,6 +218,7 @@ void PairDurianFoam::allocate()
     for (int j = i; j < n; j++) setflag[i][j] = 0;
   memory->create(cutsq, n, n, "pair:cutsq");
   memory->create(sigma0, n, n, "pair:sigma0");
+  std::fill_n(sigma0[0], n * n, 0.0);
 }
 
 void PairDurianFoam::settings(int narg, char **arg)

@@ -48,7 +48,7 @@ template <class DeviceType> void PairDurianFoamKokkos<DeviceType>::init_style()
   request->set_kokkos_host(std::is_same_v<DeviceType, LMPHostType> &&
                            !std::is_same_v<DeviceType, LMPDeviceType>);
   request->set_kokkos_device(std::is_same_v<DeviceType, LMPDeviceType>);
-  rows_known = owners_known = ghosts_fresh = false;
+  rows_known = owners_known = ghosts_fresh = sigma0_known = false;
 
   if (comm->style == Comm::TILED && !lmp->kokkos->forward_comm_legacy)
     error->all(FLERR,
@@ -58,6 +58,14 @@ template <class DeviceType> void PairDurianFoamKokkos<DeviceType>::init_style()
   // Forces of owned bubbles only, written and not added to: then LAMMPS need not clear them first
 
   fuse_force_clear_flag = !force->newton && !utils::strmatch(force->pair_style, "^hybrid");
+}
+
+// other coefficients in mid-run, by fix adapt
+
+template <class DeviceType> void PairDurianFoamKokkos<DeviceType>::reinit()
+{
+  PairDurianFoam::reinit();
+  sigma0_known = false;
 }
 
 template <class DeviceType> void PairDurianFoamKokkos<DeviceType>::compute(int eflag, int vflag)
@@ -209,12 +217,13 @@ template <class DeviceType> struct SortRows : ListedPairs<DeviceType> {
 
 template <class DeviceType> void PairDurianFoamKokkos<DeviceType>::take_list()
 {
-  if (!rows_known) {    // coefficients too may be new
+  if (!sigma0_known) {
     const int n = (atom->ntypes + 1) * (atom->ntypes + 1);
     sigma0_there = Kokkos::View<double *, DeviceType>("durian/foam:sigma0", n);
     Kokkos::deep_copy(
         sigma0_there,
         Kokkos::View<double *, Kokkos::HostSpace, Kokkos::MemoryUnmanaged>(sigma0[0], n));
+    sigma0_known = true;
   }
   if (rows_known && rows_ncalls == neighbor->ncalls && rows_lastcall == neighbor->lastcall) return;
   make_rows();

@@ -33,6 +33,7 @@ namespace LAMMPS_NS {
 // A chunk of one bubble makes it a full list, a single chunk a half list.
 
 template <class DeviceType> struct FoamRows {
+  static constexpr bool CHUNKS = FoamKokkos<DeviceType>::ON_HOST;    // of one bubble elsewhere
   using Numbers = Kokkos::View<int *, DeviceType>;
   Numbers first;     // where a row begins, [nlocal+1]
   Numbers shared;    // how many of its pairs occur once; these come first
@@ -43,12 +44,12 @@ template <class DeviceType> struct FoamRows {
     const int *partners;
     template <class Visit> KOKKOS_INLINE_FUNCTION void for_each(const Visit &visit) const
     {
-      for (int m = 0; m < size; m++) visit(partners[m], m < shared);
+      for (int m = 0; m < size; m++) visit(partners[m], CHUNKS && m < shared);
     }
   };
   KOKKOS_INLINE_FUNCTION Row row(int i) const
   {
-    return {i, first(i + 1) - first(i), shared(i), partner.data() + first(i)};
+    return {i, first(i + 1) - first(i), CHUNKS ? shared(i) : 0, partner.data() + first(i)};
   }
 };
 
@@ -85,6 +86,7 @@ template <class DeviceType> class PairDurianFoamKokkos : public PairDurianFoam, 
 
   void compute(int, int) override;
   void init_style() override;
+  void reinit() override;
   double memory_usage() override;
 
   // LAMMPS' communication on a device leaves out the radii that atom_style sphere 1 asks for
@@ -124,6 +126,7 @@ template <class DeviceType> class PairDurianFoamKokkos : public PairDurianFoam, 
   bool owners_known = false;    // for the present list
   bool ghosts_fresh = false;    // just refreshed in everything
 
+  bool sigma0_known = false;    // there
   Kokkos::View<double *, DeviceType> sigma0_there;
   DAT::ttransform_kkacc_1d k_eatom;
   DAT::ttransform_kkacc_1d_6 k_vatom;
