@@ -12,10 +12,11 @@ import subprocess
 import pytest
 
 from ways import (FULL_BUILD, KEPT, KOKKOS_STYLES, LAMMPS_BUILD, LAMMPS_SRC, OUR_KOKKOS, PROJECT,
-                  check_style_headers, check_styles, cmake, compile_files, configure, lammps_tree)
+                  UNOPTIMIZED, check_style_headers, check_styles, cmake, compile_files, configure, lammps_tree)
 
 COMPILER = LAMMPS_SRC.parent / "lib" / "kokkos" / "bin" / "nvcc_wrapper"
 CUDA = [f"-DCMAKE_CXX_COMPILER={COMPILER}", "-DKokkos_ENABLE_CUDA=on", "-DKokkos_ARCH_HOPPER90=on"]
+FLAGS = ["-DCMAKE_BUILD_TYPE=Release", *([] if FULL_BUILD else UNOPTIMIZED)]
 needs_nvcc = pytest.mark.skipif(not shutil.which("nvcc"), reason="no nvcc, NVIDIA's compiler")
 
 
@@ -28,20 +29,15 @@ def configured(name, *options):
         if not any(PROJECT.glob(f"src/*/{installed.name}")):
             installed.unlink()
     lammps_tree(tree, "FOAM", "KOKKOS_FOAM")
-    flags = [] if FULL_BUILD else ["-DCMAKE_CXX_FLAGS_RELEASE=-O0 -DNDEBUG"]
-    configure(tree / "cmake", build, "-DCMAKE_BUILD_TYPE=Release", *flags, "-DCMAKE_CXX_STANDARD=20",
-              "-DBUILD_SHARED_LIBS=on", "-DBUILD_MPI=on", "-DBUILD_OMP=on", "-DBUILD_TOOLS=off",
-              "-DFFT=KISS", "-DPKG_KOKKOS=on", "-DPKG_PLUGIN=on", "-DKokkos_ENABLE_SERIAL=on",
-              "-DKokkos_ENABLE_OPENMP=on", *options)
+    configure(tree / "cmake", build, *FLAGS, "-DCMAKE_CXX_STANDARD=20", "-DBUILD_SHARED_LIBS=on",
+              "-DBUILD_MPI=on", "-DBUILD_OMP=on", "-DBUILD_TOOLS=off", "-DFFT=KISS", "-DPKG_KOKKOS=on",
+              "-DPKG_PLUGIN=on", "-DKokkos_ENABLE_SERIAL=on", "-DKokkos_ENABLE_OPENMP=on", *options)
     check_style_headers(build)
     check_style_headers(build, suffix="_kokkos")
     return tree, build
 
 
 def compile_ours(tree, build):
-    for old in build.rglob("*foam*.o"):
-        if old.name.removesuffix(".cpp.o") not in OUR_KOKKOS:
-            old.unlink()
     compile_files(build, [tree / "src" / "KOKKOS" / f"{name}.cpp" for name in OUR_KOKKOS])
     assert {f"{name}.cpp.o" for name in OUR_KOKKOS} <= {p.name for p in build.rglob("*foam*.o")}
 
@@ -72,5 +68,5 @@ def test_plugin_for_cuda(tmp_path):
         configure(PROJECT, tmp_path / "wrong", *against)
     assert f"-DCMAKE_CXX_COMPILER={COMPILER}" in re.sub(r"\s+", " ", str(refusal.value))
     plugin = KEPT / f"{LAMMPS_BUILD.parent.name}-cuda-plugin"
-    configure(PROJECT, plugin, *against, CUDA[0])
+    configure(PROJECT, plugin, *against, *FLAGS, CUDA[0])
     compile_files(plugin, [PROJECT / "src" / "FOAM" / "foamplugin.cpp"])

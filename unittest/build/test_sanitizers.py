@@ -11,7 +11,7 @@ import subprocess
 
 import pytest
 
-from ways import KEPT, LAMMPS_BUILD, LAMMPS_SRC, PROJECT, cmake, configure
+from ways import KEPT, LAMMPS_BUILD, LAMMPS_SRC, PROJECT, UNOPTIMIZED, cmake, configure
 
 SANITIZERS = "address,undefined"
 BACK_ENDS = {"base": [], "kk-1": ["-k", "on", "t", "1", "-sf", "kk"],
@@ -48,7 +48,7 @@ def plugin():
     if not os.path.isabs(library("asan")) or not os.path.isabs(library("ubsan")):
         pytest.skip("the compiler has no libasan and libubsan")
     build = KEPT / f"{LAMMPS_BUILD.parent.name}-sanitizers"
-    configure(PROJECT, build, f"-DFOAM_SANITIZE={SANITIZERS}", "-DCMAKE_CXX_FLAGS_RELEASE=-O0 -DNDEBUG",
+    configure(PROJECT, build, f"-DFOAM_SANITIZE={SANITIZERS}", *UNOPTIMIZED,
               f"-DLAMMPS_SOURCE_DIR={LAMMPS_SRC}", f"-DLAMMPS_BUILD_DIR={LAMMPS_BUILD}")
     cmake("--build", build, "--target", "foamplugin")
     return build

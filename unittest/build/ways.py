@@ -13,6 +13,7 @@ LAMMPS_BUILD = Path(os.environ["FOAM_LAMMPS_BUILD_DIR"])
 # kept from one call of the tests to the next: compiling takes minutes
 KEPT = Path(os.environ["FOAM_BINARY_DIR"]) / "unittest" / "build"
 FULL_BUILD = os.environ.get("FOAM_TEST_FULL_BUILD")
+UNOPTIMIZED = ["-DCMAKE_CXX_FLAGS_RELEASE=-O0 -DNDEBUG"]    # a third of the time, with nvcc too
 
 STYLES = {
     "pair": ["durian/foam"],
@@ -50,7 +51,8 @@ def cmake(*arguments):
     # ccache, if there is one, also finds what was compiled in another directory; with nvcc it must
     # go by the files that were read, since what it would see preprocessed lacks the host's part
     return run(os.environ["FOAM_CMAKE"], *arguments,
-               env={"CCACHE_BASEDIR": str(KEPT.parents[1]), "CCACHE_DEPEND": "1"})
+               env={"CCACHE_BASEDIR": str(KEPT.parents[1]), "CCACHE_DEPEND": "1",
+                    "CMAKE_BUILD_PARALLEL_LEVEL": str(os.cpu_count())})
 
 
 def configure(source, build, *options):
