@@ -21,7 +21,6 @@ template <class DeviceType>
 FixFoamCoarsenKokkos<DeviceType>::FixFoamCoarsenKokkos(LAMMPS *lmp, int narg, char **arg)
     : FixFoamCoarsen(lmp, narg, arg), here(lmp, EMPTY_MASK)
 {
-  foam_strip_suffix(style);
   kokkosable = 1;
   execution_space = FoamKokkos<DeviceType>::SPACE;
   datamask_read = datamask_modify = EMPTY_MASK;

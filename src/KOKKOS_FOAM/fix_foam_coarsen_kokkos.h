@@ -26,6 +26,7 @@ namespace LAMMPS_NS {
 template <class DeviceType> class FixFoamCoarsenKokkos : public FixFoamCoarsen {
  public:
   FixFoamCoarsenKokkos(class LAMMPS *, int, char **);
+  void post_constructor() override { foam_strip_suffix(style); }
   double critical_radius() override;
 
  protected:

@@ -79,7 +79,6 @@ class FixFoamIntegrateKokkos : public Style, public KokkosBase {
   FixFoamIntegrateKokkos(LAMMPS *lmp, int narg, char **arg)
       : Style(lmp, narg, arg), here(lmp, X_MASK | V_MASK | RADIUS_MASK)
   {
-    foam_strip_suffix(this->style);
     this->kokkosable = 1;
     this->exchange_comm_device = this->sort_device = std::is_same_v<DeviceType, LMPDeviceType>;
     this->execution_space = FoamKokkos<DeviceType>::SPACE;
@@ -92,6 +91,8 @@ class FixFoamIntegrateKokkos : public Style, public KokkosBase {
       here.low = &this->low;
     }
   }
+
+  void post_constructor() override { foam_strip_suffix(this->style); }
 
   int pack_exchange_kokkos(const int &nsend, DAT::tdual_double_2d_lr &k_buf,
                            DAT::tdual_int_1d k_sendlist, DAT::tdual_int_1d k_copylist,
