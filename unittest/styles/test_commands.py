@@ -5,7 +5,7 @@ import re
 import numpy as np
 import pytest
 
-from conftest import HEAD, PRECISE, data_file
+from conftest import HEAD, PRECISE, bins_only, data_file, tiled
 
 BASIC = f"""
 compute       p all pressure NULL virial
@@ -408,6 +408,7 @@ fix           near all ave/time 1 1 1 c_sum c_most file near
 def test_contact_by_growth(lmp, headroom, neighbor, extra, ranks):
     """No bubble moves, so LAMMPS' own check never asks for a new list: the contact is found at the
     very step at which R_1 + R_2 passes the distance."""
+    bins_only(lmp, neighbor)
     text, files = few_large(headroom, neighbor, extra, ranks)
     result = lmp(text, files=files, ranks=ranks)
     frames = result.dump("dump")
@@ -787,7 +788,7 @@ def test_means_survive_another_pair_style(lmp, again):
 def test_end_with_tiled_communication(lmp):
     """Ghosts of comm_style tiled reach no further than the box: the run ends before they have to."""
     body = "run 100000\nprint 'gone on'"
-    text = foam(body, gas="0.1 0.1", thermo=1000).replace("neighbor ", "comm_style tiled\nneighbor ", 1)
+    text = tiled(lmp) + foam(body, gas="0.1 0.1", thermo=1000)
     result = lmp(text, files=data(n=6), ranks=2)
     assert "spans the box" in result.screen
     assert "gone on" in result.screen

@@ -49,8 +49,8 @@ EACH_STEP, IN_ALL = 1e-14, 1e-12
 
 @pytest.mark.parametrize("gas", ["0.1 liquid area", "0.1 liquid lsw", "0.0"])
 @pytest.mark.parametrize("dim", [2, 3])
-def test_gas_and_bubbles_are_conserved(lmp, dim, gas):
-    R, thermo, frames = coarsen(lmp, dim, gas)
+def test_gas_and_bubbles_are_conserved(each_lmp, dim, gas):
+    R, thermo, frames = coarsen(each_lmp, dim, gas)
     n = len(R)
     left, phi, removed, removed_gas = (thermo[f"f_gas[{k}]"] for k in (2, 5, 7, 8))
     assert left[-1] <= n // 10
@@ -76,12 +76,12 @@ def test_gas_and_bubbles_are_conserved(lmp, dim, gas):
 
 # (neighbor drag needs many more steps when the tolerance is tight)
 @pytest.mark.parametrize("pair, step", [("drag static", "1e-3"), ("drag neighbor", "1e-2")])
-def test_rates_are_evaluated_again_after_a_removal(lmp, pair, step):
+def test_rates_are_evaluated_again_after_a_removal(each_lmp, pair, step):
     """Rates from before a removal no longer add up to zero: the next step would lose gas.
 
     With `scheme source`, which keeps them, steps after removals change it by up to 1e-5.
     """
-    _, thermo, _ = coarsen(lmp, 2, step=step, pair=pair)
+    _, thermo, _ = coarsen(each_lmp, 2, step=step, pair=pair)
     phi, removed = thermo["f_gas[5]"], thermo["f_gas[7]"]
     after = np.flatnonzero(np.diff(removed)) + 1
     after = after[after + 1 < len(phi)]

