@@ -5,7 +5,7 @@ import signal
 
 import pytest
 
-from conftest import HEAD, data_file, on_device
+from conftest import HEAD, KOKKOS, data_file, on_device
 
 COMMANDS = {
     "pair_style": "pair_style durian/foam 1.0",
@@ -106,6 +106,7 @@ def foam(after="", head=None, **changed):
 CASES = list(cases())
 
 
+@pytest.mark.parametrize("lmp", ["wheel", KOKKOS[0]], indirect=True)
 @pytest.mark.parametrize("which, command, style, words", CASES, ids=[case[1] for case in CASES])
 def test_arguments(lmp, which, command, style, words):
     line = fails(lmp, foam(**{which: command})).lower()

@@ -223,6 +223,8 @@ def of_base_styles(tmp_path_factory):
     return run
 
 
+# two threads have all that one has
+@pytest.mark.parametrize("kk_lmp", [name for name in KOKKOS if name != "kk1"], indirect=True)
 @pytest.mark.parametrize("name", SCENES)
 def test_scene(kk_lmp, of_base_styles, name):
     """The same foam as with the base styles, whatever else LAMMPS does with it."""
