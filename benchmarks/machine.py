@@ -110,7 +110,7 @@ def lammps(command, script, directory, variables, environment=None, timeout=None
     the device in MB, and the seconds of the whole process."""
     words = [*command, "-in", str(HERE / script), "-log", "none"]
     for name, value in variables.items():
-        words += ["-var", name, str(value)]
+        words += ["-var", name, *map(str, value if isinstance(value, tuple) else (value,))]
     watch = DeviceMemory() if watch_device else None
     if watch:
         watch.start()

@@ -1,0 +1,465 @@
+#!/usr/bin/env python3
+"""Speed against accuracy: what the settings of a run cost, and how far from the truth it ends.
+
+    tradeoff.py --lmp "COMMAND" [--scene 2d,3d] [--bubbles 1e3,1e4] [--full] [--models]
+                [--lmp-mixed "COMMAND"] [--lmp-single "COMMAND"] [--out DIR] [--limit SECONDS]
+
+Each scene starts from one relaxed foam (in.packing, tradeoff/in.relax), which is kept in --cache.
+A reference with a tight tolerance comes first, then every method with every tolerance, then single
+settings (knobs) one by one. All stop at the same times exactly; there the state is compared with
+the reference. Runs from a start displaced by 1e-12, with equal settings, tell how much of a
+difference is chaos.
+
+Results: tradeoff.csv, a line for each run and time, written as runs finish: the same command again
+goes on where it stopped. From it tables (tradeoff.txt) and a diagram for each scene (SCENE-N.png).
+The manual, doc/tradeoff.rst, explains them.
+"""
+
+import argparse
+import csv
+import hashlib
+import os
+import re
+import shlex
+import sys
+import time
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+import machine
+from machine import HERE, Failed
+
+CHAOS = 1.0e-12         # displacement of bubbles at the start of runs that show chaos
+SEEDS = (1, 2, 3)       # so many of them
+
+
+# ---- scenes and settings ------------------------------------------------------------------------
+
+@dataclass
+class Scene:
+    title: str
+    dim: int = 2
+    phi: float = 0.90
+    K: float = 1.0e-3
+    gas: str = "0.1"        # arguments of fix foam/coarsen after K
+    rate: float = 0.0       # of shear
+    until: tuple = (0.02, 0.1, 1.0)     # tau, or strain: positions are compared at the first
+
+    @property
+    def clock(self):
+        return self.K or self.rate      # tau or strain in a unit of time
+
+    def variables(self):
+        return {"dim": self.dim, "K": self.K, "gas": self.gas, "rate": self.rate,
+                "until": tuple(f"{t / self.clock:.10g}" for t in self.until)}
+
+
+SCENES = {
+    "2d": Scene("2D, gas fraction 0.90"),
+    "jam": Scene("2D, gas fraction 0.845", phi=0.845),
+    "3d": Scene("3D, gas fraction 0.75", dim=3, phi=0.75),
+    "slow": Scene("2D, gas fraction 0.90, K = 1e-4", K=1.0e-4),
+    "bubbly": Scene("2D, bubbly liquid, gas fraction 0.3, kappa = 1", phi=0.3, gas="1.0"),
+    "shear": Scene("2D, gas fraction 0.90, fixed sizes, sheared at the rate 1e-4", K=0.0,
+                   rate=1.0e-4, until=(0.002, 0.01, 0.05)),
+}
+QUICK = ["2d", "3d", "shear"]
+
+
+@dataclass
+class Run:
+    """Settings to be measured."""
+    curve: str                  # the method, or knob
+    value: str                  # its tolerance, or the knob's value
+    step: str                   # fix style and arguments
+    variables: dict = field(default_factory=dict)
+    against: str = "reference"  # the run that it is compared with, by its name
+    precision: str = "double"
+
+    @property
+    def name(self):
+        return f"{self.curve} {self.value}"
+
+
+def reference(bubbles):
+    """The tightest settings that can be paid. The root mean square needs fewer steps for the same
+    error at the end: doc/tradeoff.rst."""
+    step = "foam/abm 1e-9" if bubbles <= 2000 else "foam/abm 1e-8 norm rms"
+    return Run("reference", step.split()[1], step, against="")
+
+
+METHODS = {     # curve: step without tolerance
+    "source": ("foam/abm", "scheme source"),
+    "abm max": ("foam/abm", "norm max"),
+    "abm rms": ("foam/abm", "norm rms"),
+    "rkc max": ("foam/rkc", "norm max"),
+    "rkc rms": ("foam/rkc", "norm rms"),
+}
+TOLERANCES = {
+    "source": ("1e-3", "1e-4", "1e-5"),
+    "abm max": ("1e-2", "1e-3", "1e-4", "1e-5", "1e-6"),
+    "abm rms": ("1e-2", "1e-3", "1e-4", "1e-5", "1e-6"),
+    "rkc max": ("1e-1", "1e-2", "1e-3", "1e-4", "1e-5"),
+    "rkc rms": ("1e-2", "1e-3", "3e-4", "1e-4", "1e-5", "1e-6"),
+}
+
+
+def methods(known):
+    return [Run(curve, tol, f"{style} {tol} {more}")
+            for curve, (style, more) in METHODS.items() if style in known
+            for tol in TOLERANCES[curve]]
+
+
+def chaos(bubbles):
+    step = "foam/abm 1e-7" if bubbles <= 2000 else "foam/abm 1e-6 norm rms"
+    return [Run("chaos", "0", step, against=""),
+            *(Run("chaos", str(seed), step, {"nudge": CHAOS, "seed": seed}, against="chaos 0")
+              for seed in SEEDS)]
+
+
+def knobs(known, scene):
+    """One setting changed at a time."""
+    runs = []
+    for style, tol, norm in (("foam/abm", "1e-3", "max"), ("foam/rkc", "3e-4", "rms")):
+        if style not in known:
+            continue
+        base, short = f"{style} {tol} norm {norm}", style.removeprefix("foam/")
+        runs += [Run(f"{short} dtmax", h, f"{base} dtmax {h}") for h in ("0.1", "0.3", "1", "10")]
+        runs += [Run(f"{short} skin", s, base, {"skin": s})
+                 for s in ("0.1", "0.2", "0.3", "0.5", "0.8")]
+        if scene.K:
+            runs.append(Run(f"{short} variable", "radius", f"{base} variable radius"))
+        if short == "rkc":
+            runs += [Run("rkc stages", s, f"{base} stages {s}") for s in ("3", "5", "8", "12", "20")]
+    return runs
+
+
+# ---- states -------------------------------------------------------------------------------------
+
+def read_state(path):
+    """Columns id, radius, x, y, z of a dump, by id."""
+    lines = path.read_text().split("ITEM: ATOMS", 1)[1].split("\n", 1)[1]
+    return np.array(lines.split(), float).reshape(-1, 5)
+
+
+def distribution_distance(a, b):
+    """Largest distance of two cumulative distributions (Kolmogorov-Smirnov)."""
+    a, b = np.sort(a), np.sort(b)
+    at = np.concatenate([a, b])
+    return float(np.abs(np.searchsorted(a, at, "right") / len(a) -
+                        np.searchsorted(b, at, "right") / len(b)).max())
+
+
+def errors(state, row, other, other_row, dim):
+    """Differences of two states at one time, as columns of the table. Energies are compared
+    relatively, but for loose bubbles, which have none, as energies of a bubble."""
+    _, i, j = np.intersect1d(state[:, 0], other[:, 0], return_indices=True)
+    n, energy = len(other), float(other_row["energy"])
+    # the smallest bubbles shrink fastest: how far radii differ on the whole is another matter
+    return {
+        "error N": abs(len(state) - n) / n,
+        "error R": abs(float(row["R"]) / float(other_row["R"]) - 1.0),
+        "error energy": abs(float(row["energy"]) - energy) / max(energy, 1.0e-6 * n),
+        "error sizes": distribution_distance(state[:, 1], other[:, 1]),
+        "error radii": float(np.sqrt(np.mean((state[i, 1] - other[j, 1])**2))),
+        "error x": float(np.sqrt(np.mean((state[i, 2:2 + dim] - other[j, 2:2 + dim])**2) * dim)),
+    }
+
+
+# ---- runs ---------------------------------------------------------------------------------------
+
+COLUMNS = ["scene", "bubbles", "curve", "value", "step", "settings", "precision", "clock",
+           "evaluations", "rejected", "steps", "seconds", "cpu seconds", "N", "R", "energy",
+           "against", "error N", "error R", "error energy", "error sizes", "error radii",
+           "error x", "recipe", "styles", "lammps", "machine", "date"]
+REACHED = re.compile(r"^reached (?P<until>\S+) rest \S+ bubbles (?P<N>\d+) radius (?P<R>\S+) "
+                     r"square \S+ energy (?P<energy>\S+) evaluations (?P<evaluations>\S+) "
+                     r"rejected (?P<rejected>\S+) steps (?P<steps>\S+)", re.M)
+LOOP = re.compile(r"^Loop time of (\S+)|^([\d.]+)% CPU use", re.M)
+
+
+def say(text):
+    print(text, file=sys.stderr, flush=True)
+
+
+def digest(paths):
+    return hashlib.sha256(b"".join(path.read_bytes() for path in paths)).hexdigest()[:8]
+
+
+def loop_seconds(text):
+    """Seconds of wall clock and processor in the loops of all runs in a piece of output."""
+    wall = cpu = last = 0.0
+    for loop, share in LOOP.findall(text):
+        if loop:
+            last = float(loop)
+            wall += last
+            cpu += last
+        else:
+            cpu += last * (float(share) / 100.0 - 1.0)
+    return wall, cpu
+
+
+class Campaign:
+    def __init__(self, args):
+        self.args = args
+        self.commands = {"double": shlex.split(args.lmp)}
+        for precision in ("mixed", "single"):
+            if getattr(args, f"lmp_{precision}"):
+                self.commands[precision] = shlex.split(getattr(args, f"lmp_{precision}"))
+        self.scripts = digest([HERE / "in.packing", HERE / "tradeoff" / "in.relax",
+                               HERE / "tradeoff" / "in.run"])
+        self.styles = digest(sorted((HERE.parent / "src").glob("*FOAM/*.[hc]*")))
+        self.version, self.known = self.look(self.commands["double"])
+        self.table = args.out / "tradeoff.csv"
+        self.rows = read_table(self.table)
+        self.references = {}
+        self.failed = []
+
+    def look(self, command):
+        """Version of a LAMMPS, and which of our integrators it knows."""
+        script = self.args.out / "in.known"
+        script.write_text("info styles fix\n")
+        text = machine.lammps(command, script.absolute(), self.args.out, {})[0]
+        script.unlink()
+        known = {"foam/abm", "foam/rkc"} & set(text.split())
+        if "foam/abm" not in known:
+            raise SystemExit(f"{shlex.join(command)}: a LAMMPS without fix foam/abm")
+        return re.search(r"LAMMPS \((.*)\)", text)[1], known
+
+    def recipe(self, scene):
+        """Short name of all that the result of a run hangs on, but for the code and its settings."""
+        return hashlib.sha256(f"{self.scripts} {scene}".encode()).hexdigest()[:8]
+
+    # -- the start
+
+    def start(self, name, bubbles):
+        scene = SCENES[name]
+        path = (self.args.cache / f"relaxed-{scene.dim}d-{scene.phi}-{bubbles}-{self.scripts}.data"
+                ).absolute()
+        if path.exists():
+            return path
+        say(f"a relaxed foam of {bubbles} bubbles, {scene.dim}D, gas fraction {scene.phi}")
+        packing, unfinished = (path.with_suffix(f".{os.getpid()}-{part}") for part in "ab")
+        self.lammps("double", "in.packing", {"dim": scene.dim, "N": bubbles, "phi": scene.phi,
+                                             "coarsen": 0, "file": packing})
+        self.lammps("double", "tradeoff/in.relax", {"dim": scene.dim, "start": packing,
+                                                    "file": unfinished})
+        packing.unlink()
+        unfinished.rename(path)
+        return path
+
+    def lammps(self, precision, script, variables):
+        words = self.commands[precision]
+        if precision != "double":
+            words = [*words, "-k", "on", "t", "1", "-sf", "kk"]
+        limit = max(self.args.deadline - time.time(), 20) if self.args.deadline else None
+        return machine.lammps(words, script, self.args.out, variables, {"OMP_NUM_THREADS": "1"},
+                              limit)[0]
+
+    # -- a run
+
+    def kept(self, scene, bubbles, name):
+        return self.args.cache / f"{scene}-{bubbles}-{name.replace(' ', '-')}-{self.recipe(scene)}.npz"
+
+    def have(self, scene, bubbles, run):
+        return [row for row in self.rows if row["scene"] == scene and
+                row["bubbles"] == str(bubbles) and row["curve"] == run.curve and
+                row["value"] == run.value and row["precision"] == run.precision and
+                row["step"] == run.step and row["recipe"] == self.recipe(scene)]
+
+    def measure(self, name, bubbles, run):
+        scene = SCENES[name]
+        variables = {**scene.variables(), "file": self.start(name, bubbles), "step": run.step,
+                     "look": 25 if bubbles > 20000 else 1, **run.variables}
+        try:
+            text = self.lammps(run.precision, "tradeoff/in.run", variables)
+        except Failed:
+            if variables["look"] == 1:
+                raise
+            # so few steps that the coarse look came too late
+            text = self.lammps(run.precision, "tradeoff/in.run", {**variables, "look": 1})
+        states = [read_state(self.args.out / f"state.{k + 1}") for k in range(len(scene.until))]
+        rows, seconds, cpu, begin = [], 0.0, 0.0, 0
+        for clock, found in zip(scene.until, REACHED.finditer(text), strict=True):
+            more = loop_seconds(text[begin:found.end()])
+            seconds, cpu, begin = seconds + more[0], cpu + more[1], found.end()
+            rows.append({
+                "scene": name, "bubbles": bubbles, "curve": run.curve, "value": run.value,
+                "step": run.step, "precision": run.precision, "clock": clock,
+                "settings": " ".join(f"{k}={v}" for k, v in run.variables.items()),
+                "seconds": f"{seconds:.4g}", "cpu seconds": f"{cpu:.4g}",
+                "against": run.against, "recipe": self.recipe(name), "styles": self.styles,
+                "lammps": self.version, "machine": machine.cpu_name(),
+                "date": time.strftime("%Y-%m-%d"),
+                **{k: v for k, v in found.groupdict().items() if k in COLUMNS}})
+        if run.against:
+            others = self.comparison(name, bubbles, run.against)
+            for row, state, (other, other_row) in zip(rows, states, others, strict=True):
+                row.update({k: f"{v:.4g}" for k, v in
+                            errors(state, row, other, other_row, scene.dim).items()})
+        else:
+            np.savez(self.kept(name, bubbles, run.name.split()[0] if run.curve == "reference"
+                               else run.name), *states)
+        return rows
+
+    def comparison(self, scene, bubbles, name):
+        """States and rows of a run that others are compared with."""
+        key = scene, bubbles, name
+        if key not in self.references:
+            with np.load(self.kept(*key)) as states:
+                states = [states[k] for k in states.files]
+            curve, value = (name.split() + [None])[:2]
+            rows = [row for row in self.rows if row["scene"] == scene and
+                    row["bubbles"] == str(bubbles) and row["curve"] == curve and
+                    value in (None, row["value"]) and row["recipe"] == self.recipe(scene)]
+            self.references[key] = list(zip(states, rows[-len(states):], strict=True))
+        return self.references[key]
+
+    # -- all of them
+
+    def jobs(self):
+        for bubbles in self.args.bubbles:
+            for name in self.args.scene:
+                runs = [reference(bubbles), *methods(self.known), *chaos(bubbles)]
+                if self.args.knobs and bubbles <= self.args.knobs:
+                    runs += knobs(self.known, SCENES[name])
+                    runs += [Run("precision", precision, step, precision=precision)
+                             for precision in self.commands if precision != "double"
+                             for step in ("foam/abm 1e-3 norm max",)]
+                for run in runs:
+                    if self.wanted(run):
+                        yield name, bubbles, run
+
+    def wanted(self, run):
+        return not run.against or run.curve == "chaos" or not self.args.curve or any(
+            run.curve.startswith(curve) for curve in self.args.curve)
+
+    def missing(self, scene, bubbles, run):
+        have = self.have(scene, bubbles, run)
+        if not run.against:     # its states are needed, too
+            name = "reference" if run.curve == "reference" else run.name
+            return not have or not self.kept(scene, bubbles, name).exists()
+        return not have
+
+    def run(self):
+        todo = [job for job in self.jobs() if self.missing(*job)]
+        say(f"{len(todo)} runs to do; results so far: {self.table}")
+        weights = [weight(*job) for job in todo]
+        begin, done = time.time(), 0.0
+        for number, (job, heavy) in enumerate(zip(todo, weights), 1):
+            name, bubbles, run = job
+            if self.args.deadline and time.time() > self.args.deadline:
+                say("out of time: the same command again goes on from here")
+                break
+            togo = (time.time() - begin) / done * (sum(weights) - done) if done else None
+            say(f"{number}/{len(todo)} {name} {bubbles} {run.name}" +
+                (f", {clock_text(togo)} to go" if togo else ""))
+            try:
+                rows = self.measure(*job)
+            except Failed as error:
+                say(f"  failed: {error}")
+                self.failed.append(f"{name} {bubbles} {run.name}: {error}")
+            else:
+                append(self.table, rows)
+                self.rows += [{k: str(v) for k, v in row.items()} for row in rows]
+                self.references.pop((name, bubbles, run.name), None)
+            done += heavy
+
+
+def weight(scene, bubbles, run):
+    """What a run may cost, in some unit."""
+    tol = float(re.search(r"foam/\S+ (\S+)", run.step)[1])
+    cost = bubbles * max(1.0, (1.0e-4 / tol)**(1.0 / 3.0)) / SCENES[scene].clock
+    return cost * (2.5 if SCENES[scene].dim == 3 else 1.0) * (0.3 if "rkc" in run.step else 1.0)
+
+
+def clock_text(seconds):
+    return f"{seconds:.0f} s" if seconds < 100 else f"{seconds / 60:.0f} min"
+
+
+def read_table(path):
+    if not path.exists():
+        return []
+    with path.open(newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def append(path, rows):
+    new = not path.exists()
+    with path.open("a", newline="") as file:
+        table = csv.DictWriter(file, COLUMNS, lineterminator="\n", restval="")
+        if new:
+            table.writeheader()
+        table.writerows(rows)
+
+
+# ---- the command --------------------------------------------------------------------------------
+
+def arguments():
+    from run import choice_list, number_list    # the same words as in the other benchmark
+    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0], epilog=__doc__.split(
+        "\n\n", 2)[2], formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--lmp", default="lmp", metavar="COMMAND",
+                        help="LAMMPS with the foam styles (%(default)s)")
+    for precision in ("mixed", "single"):
+        parser.add_argument(f"--lmp-{precision}", metavar="COMMAND",
+                            help=f"one with KOKKOS_PREC={precision}")
+    parser.add_argument("--full", action="store_true",
+                        help="all scenes, 10^3 to 10^6 bubbles: many hours")
+    parser.add_argument("--bubbles", type=number_list, metavar="N,...",
+                        help="numbers of bubbles (1e3)")
+    parser.add_argument("--scene", type=choice_list(*SCENES), metavar="S,...",
+                        help=f"{','.join(SCENES)} ({','.join(QUICK)})")
+    parser.add_argument("--curve", type=lambda text: text.split(","), metavar="C,...",
+                        help="only methods and knobs whose names begin like this, say abm,'rkc rms'")
+    parser.add_argument("--knobs", type=float, metavar="N", default=0,
+                        help="also single settings, up to so many bubbles (--full: 10^4)")
+    parser.add_argument("--limit", type=float, metavar="SECONDS",
+                        help="start nothing new after this time")
+    parser.add_argument("--draw", action="store_true", help="run nothing, draw what there is")
+    parser.add_argument("--out", type=Path, default=Path("foam-tradeoff"), metavar="DIR",
+                        help="where results go (%(default)s)")
+    parser.add_argument("--cache", type=Path, metavar="DIR",
+                        help="where relaxed foams and references are kept (--out)")
+    args = parser.parse_args()
+    args.scene = args.scene or (list(SCENES) if args.full else QUICK)
+    args.bubbles = args.bubbles or ([10**n for n in (3, 4, 5, 6)] if args.full else [1000])
+    args.knobs = args.knobs or (10_000 if args.full else 0)
+    args.cache = args.cache or args.out
+    args.deadline = time.time() + args.limit if args.limit else None
+    for name in ("lmp", "lmp_mixed", "lmp_single"):     # runs have a working directory of their own
+        command = getattr(args, name)
+        if command:
+            words = shlex.split(command)
+            words = [str(Path(w).absolute()) if "/" in w and Path(w).exists() else w for w in words]
+            setattr(args, name, shlex.join(words))
+    return args
+
+
+def main():
+    args = arguments()
+    for directory in (args.out, args.cache):
+        directory.mkdir(parents=True, exist_ok=True)
+    if not args.draw:
+        campaign = Campaign(args)
+        campaign.run()
+        for line in campaign.failed:
+            print(f"failed: {line}")
+    rows = read_table(args.out / "tradeoff.csv")
+    if not rows:
+        raise SystemExit("nothing was measured")
+    import frontier
+    text = frontier.tables(rows)
+    (args.out / "tradeoff.txt").write_text(text + "\n")
+    print(text)
+    try:
+        frontier.draw(rows, args.out)
+    except ImportError:
+        say("no matplotlib, no diagrams: --draw makes them later")
+    say(f"results: {args.out}/tradeoff.csv, tradeoff.txt")
+
+
+if __name__ == "__main__":
+    main()
