@@ -330,7 +330,27 @@ void PairDurianFoam::init_style()
     cutoff_radius = MAX(largest, MIN(cutoff_radius, 0.5 * (side - neighbor->skin)));
   }
 
+  if (domain->dimension == 2) thicken_box();
   neighbor->add_request(this, list_flags);
+}
+
+// In 2D the box has a thickness that means nothing, except that LAMMPS refuses to sort bubbles into
+// bins, half a cutoff wide, if these are a hundred times wider than thick.
+
+void PairDurianFoam::thicken_box()
+{
+  const double bin = 0.5 * (2.0 * cutoff_radius + neighbor->skin), thick = domain->zprd;
+  if (thick >= 0.02 * bin) return;    // safe by a factor of 2
+  domain->boxlo[2] *= 2.0 * bin / thick;
+  domain->boxhi[2] *= 2.0 * bin / thick;
+  domain->set_global_box();
+  if (domain->triclinic) domain->set_lamda_box();
+  domain->set_local_box();
+  if (comm->me == 0)
+    utils::logmesg(lmp,
+                   "Pair style durian/foam: a 2D box of thickness {:.8} is too thin for neighbor bins "
+                   "of bubbles that large; it is {:.8} thick now\n",
+                   thick, domain->zprd);
 }
 
 double PairDurianFoam::init_one(int i, int j)
