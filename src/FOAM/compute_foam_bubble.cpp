@@ -10,6 +10,7 @@
 #include "compute_foam_bubble.h"
 
 #include "fix_foam_coarsen.h"
+#include "foam_input.h"
 #include "foam_physics.h"
 #include "pair_durian_foam.h"
 
@@ -44,7 +45,7 @@ ComputeFoamBubble::ComputeFoamBubble(LAMMPS *lmp, int narg, char **arg)
       error->all(FLERR,
                  "Compute foam/bubble: unknown quantity {} "
                  "(allowed are contacts, area, free, vfilm, vliquid, rdot, espring, edurian)",
-                 arg[iarg]);
+                 FoamInput::shown(arg[iarg]));
     if (wanted.count == Foam::Quantities::MOST)
       error->all(FLERR, "Compute foam/bubble: at most {} quantities", Foam::Quantities::MOST);
     wanted.name[wanted.count++] = static_cast<Foam::Quantity>(q);

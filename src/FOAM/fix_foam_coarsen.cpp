@@ -21,8 +21,6 @@
 #include "modify.h"
 #include "neighbor.h"
 
-#include <cstring>
-
 using namespace LAMMPS_NS;
 using namespace FixConst;
 
@@ -32,40 +30,21 @@ FixFoamCoarsen::FixFoamCoarsen(LAMMPS *lmp, int narg, char **arg)
     : Fix(lmp, narg, arg), pair(nullptr), law(Foam::LiquidLaw::AREA), rmin(0.1), ain_given(0.0),
       nmin(0), rho(0.0), time(0.0), removed_bubbles(0.0), removed_gas(0.0), dead(false)
 {
-  if (narg < 5) error->all(FLERR, "Fix foam/coarsen needs K and kappa as first arguments");
   if (igroup != 0)
     error->all(FLERR, "Fix foam/coarsen needs group all, since gas exchange couples all bubbles");
 
-  const FoamInput input(lmp, error, "Fix foam/coarsen");
-  K = input.number("K", arg[3], FoamInput::AT_LEAST, 0.0);
-  kappa = input.number("kappa", arg[4], FoamInput::AT_LEAST, 0.0);
-
-  for (int iarg = 5; iarg < narg; iarg += 2) {
-    const std::string keyword = arg[iarg];
-    if (iarg + 2 > narg)
-      error->all(
-          FLERR,
-          "Fix foam/coarsen: keyword {} needs a value (keywords are rmin, liquid, nmin, ain)",
-          keyword);
-    const char *value = arg[iarg + 1];
-    if (keyword == "rmin")
-      rmin = input.number("rmin", value, FoamInput::AT_LEAST, 0.0);
-    else if (keyword == "ain")
-      ain_given = input.number("ain", value, FoamInput::ABOVE, 0.0);
-    else if (keyword == "nmin")
-      nmin = input.count("nmin", value);
-    else if (keyword == "liquid") {
-      if (strcmp(value, "area") == 0)
-        law = Foam::LiquidLaw::AREA;
-      else if (strcmp(value, "lsw") == 0)
-        law = Foam::LiquidLaw::LSW;
-      else
-        error->all(FLERR, "Fix foam/coarsen: liquid must be area or lsw, not {}", value);
-    } else
-      error->all(FLERR,
-                 "Fix foam/coarsen: unknown keyword {} (allowed are rmin, liquid, nmin, ain)",
-                 keyword);
-  }
+  using Value = FoamInput::Value;
+  FoamInput input(error, "Fix foam/coarsen", narg - 3, arg + 3);
+  K = input.argument("K").number(FoamInput::AT_LEAST, 0.0);
+  kappa = input.argument("kappa").number(FoamInput::AT_LEAST, 0.0);
+  input.keywords(
+      {{"rmin", [&](const Value &v) { rmin = v.number(FoamInput::AT_LEAST, 0.0); }},
+       {"liquid",
+        [&](const Value &v) {
+          law = v.one_of({"area", "lsw"}) == 1 ? Foam::LiquidLaw::LSW : Foam::LiquidLaw::AREA;
+        }},
+       {"nmin", [&](const Value &v) { nmin = v.count(); }},
+       {"ain", [&](const Value &v) { ain_given = v.number(FoamInput::ABOVE, 0.0); }}});
 
   vector_flag = 1;
   size_vector = 8;

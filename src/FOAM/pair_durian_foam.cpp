@@ -223,55 +223,33 @@ void PairDurianFoam::allocate()
 
 void PairDurianFoam::settings(int narg, char **arg)
 {
-  if (narg < 1)
-    error->all(FLERR, "Pair style durian/foam needs the drag coefficient mu0 as first argument");
-  const FoamInput input(lmp, error, "Pair style durian/foam");
-  mu0 = input.number("mu0", arg[0], FoamInput::ABOVE, 0.0);
+  using Value = FoamInput::Value;
+  FoamInput input(error, "Pair style durian/foam", narg, arg);
+  mu0 = input.argument("mu0").number(FoamInput::ABOVE, 0.0);
 
   neighbor_drag = false;
   headroom = 1.2;
-
-  int iarg = 1;
-  while (iarg < narg) {
-    if (iarg + 2 > narg)
-      error->all(
-          FLERR,
-          "Pair style durian/foam: keyword {} needs a value (keywords are drag, rin, headroom)",
-          arg[iarg]);
-    const std::string keyword = arg[iarg], value = arg[iarg + 1];
-    if (keyword == "drag") {
-      if (value == "static")
-        neighbor_drag = false;
-      else if (value == "neighbor")
-        neighbor_drag = true;
-      else
-        error->all(FLERR, "Pair style durian/foam: drag must be static or neighbor, not {}", value);
-    } else if (keyword == "rin") {
-      rin = input.number("rin", value, FoamInput::ABOVE, 0.0);
-      rin_fixed = true;
-    } else if (keyword == "headroom") {
-      headroom = input.number("headroom", value, FoamInput::AT_LEAST, 1.0);
-    } else
-      error->all(FLERR,
-                 "Pair style durian/foam: unknown keyword {} (allowed are drag, rin, headroom)",
-                 keyword);
-    iarg += 2;
-  }
+  input.keywords(
+      {{"drag", [&](const Value &v) { neighbor_drag = v.one_of({"static", "neighbor"}) == 1; }},
+       {"rin",
+        [&](const Value &v) {
+          rin = v.number(FoamInput::ABOVE, 0.0);
+          rin_fixed = true;
+        }},
+       {"headroom", [&](const Value &v) { headroom = v.number(FoamInput::AT_LEAST, 1.0); }}});
 }
 
 void PairDurianFoam::coeff(int narg, char **arg)
 {
-  if (narg != 3)
-    error->all(FLERR,
-               "Pair style durian/foam: pair_coeff needs two types and sigma0, got {} arguments",
+  if (narg > 3)
+    error->all(FLERR, "Pair style durian/foam: pair_coeff needs two types and sigma0, not {} words",
                narg);
   if (!allocated) allocate();
 
-  int ilo, ihi, jlo, jhi;
-  utils::bounds(FLERR, arg[0], 1, atom->ntypes, ilo, ihi, error);
-  utils::bounds(FLERR, arg[1], 1, atom->ntypes, jlo, jhi, error);
-  const double value = FoamInput(lmp, error, "Pair style durian/foam")
-                           .number("sigma0 in pair_coeff", arg[2], FoamInput::AT_LEAST, 0.0);
+  FoamInput input(error, "Pair style durian/foam", narg, arg);
+  const auto [ilo, ihi] = input.argument("type I in pair_coeff").types(atom->ntypes);
+  const auto [jlo, jhi] = input.argument("type J in pair_coeff").types(atom->ntypes);
+  const double value = input.argument("sigma0 in pair_coeff").number(FoamInput::AT_LEAST, 0.0);
 
   int count = 0;
   for (int i = ilo; i <= ihi; i++)
@@ -281,7 +259,8 @@ void PairDurianFoam::coeff(int narg, char **arg)
       count++;
     }
   if (count == 0)
-    error->all(FLERR, "Pair style durian/foam: pair_coeff {} {} names no pair of types", arg[0],
+    error->all(FLERR,
+               "Pair style durian/foam: pair_coeff {} {} names no pair of types I <= J", arg[0],
                arg[1]);
 }
 

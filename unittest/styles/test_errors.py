@@ -52,8 +52,8 @@ def cases():
         *((f"* * {bad}", "sigma0", ">= 0", bad) for bad in bad_not_negative),
     ])
     yield from add("gas", COARSEN, "fix gas all foam/coarsen", [
-        ("", "K", "kappa"),
-        ("1e-3", "K", "kappa"),
+        ("", "argument K", "a number >= 0"),
+        ("1e-3", "kappa", "a number >= 0"),
         *((f"{bad} 0.1", "K", ">= 0", bad) for bad in bad_not_negative),
         *((f"1e-3 {bad}", "kappa", ">= 0", bad) for bad in bad_not_negative),
         ("1e-3 0.1 rmin", "rmin", "needs a value"),
