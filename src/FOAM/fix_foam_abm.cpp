@@ -9,10 +9,20 @@
 
 #include "fix_foam_abm.h"
 
+#include "error.h"
+
 using namespace LAMMPS_NS;
 
 FixFoamABM::FixFoamABM(LAMMPS *lmp, int narg, char **arg) : FixFoamIntegrate(lmp, narg, arg)
 {
+  settings(narg, arg, {{"scheme", [&](const std::string &value) {
+                          control.scheme = second_of("scheme", value, "standard", "source")
+                              ? Foam::Scheme::SOURCE
+                              : Foam::Scheme::STANDARD;
+                        }}});
+  if (drift_removed && control.scheme == Foam::Scheme::SOURCE)
+    error->all(FLERR, "Fix {}: drift remove goes with scheme standard, not with scheme source",
+               style);
 }
 
 FoamTotals FixFoamABM::attempt(double step, bool first)

@@ -31,6 +31,7 @@ class FixFoamABM : public FixFoamIntegrate {
  protected:
   FoamTotals attempt(double, bool) override;
   bool evaluates_again() const override;
+  bool works() const override { return !evaluates_again(); }
 
   template <int D, class Space> FoamTotals attempt_in(Space &here, double step, bool first)
   {

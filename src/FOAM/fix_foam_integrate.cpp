@@ -38,46 +38,10 @@ using namespace FixConst;
 FixFoamIntegrate::FixFoamIntegrate(LAMMPS *lmp, int narg, char **arg)
     : Fix(lmp, narg, arg), reduce(world), dim(domain->dimension)
 {
-  if (narg < 4) error->all(FLERR, "Fix {} needs the tolerance as first argument", style);
   if (igroup != 0)
     error->all(FLERR,
                "Fix {} needs group all; with static drag, fix setforce 0 0 0 holds bubbles "
                "in place",
-               style);
-
-  const FoamInput input(lmp, error, fmt::format("Fix {}", style));
-  control.tolerance = input.number("tolerance", arg[3], FoamInput::ABOVE, 0.0);
-
-  const std::string keywords = "dt0, dtmax, variable, norm, scheme, drift";
-  for (int iarg = 4; iarg < narg; iarg += 2) {
-    const std::string keyword = arg[iarg];
-    if (iarg + 2 > narg)
-      error->all(FLERR, "Fix {}: keyword {} needs a value (keywords are {})", style, keyword,
-                 keywords);
-    const std::string value = arg[iarg + 1];
-    auto one_of = [&](const char *first, const char *second) {
-      if (value != first && value != second)
-        error->all(FLERR, "Fix {}: {} must be {} or {}, not {}", style, keyword, first, second,
-                   value);
-      return value == second;
-    };
-    if (keyword == "dt0")
-      dt_start = input.number("dt0", value, FoamInput::ABOVE, 0.0);
-    else if (keyword == "dtmax")
-      dt_limit = input.number("dtmax", value, FoamInput::ABOVE, 0.0);
-    else if (keyword == "variable")
-      variable = one_of("volume", "radius") ? Foam::Variable::RADIUS : Foam::Variable::VOLUME;
-    else if (keyword == "norm")
-      norm = one_of("max", "rms") ? Foam::Norm::RMS : Foam::Norm::MAX;
-    else if (keyword == "scheme")
-      control.scheme = one_of("standard", "source") ? Foam::Scheme::SOURCE : Foam::Scheme::STANDARD;
-    else if (keyword == "drift")
-      drift_removed = one_of("keep", "remove");
-    else
-      error->all(FLERR, "Fix {}: unknown keyword {} (allowed are {})", style, keyword, keywords);
-  }
-  if (drift_removed && control.scheme == Foam::Scheme::SOURCE)
-    error->all(FLERR, "Fix {}: drift remove goes with scheme standard, not with scheme source",
                style);
 
   time_integrate = 1;
@@ -97,6 +61,47 @@ FixFoamIntegrate::FixFoamIntegrate(LAMMPS *lmp, int narg, char **arg)
   columns.use(atom->nmax);
   atom->add_callback(Atom::GROW);
   atom->add_callback(Atom::RESTART);
+}
+
+bool FixFoamIntegrate::second_of(const std::string &keyword, const std::string &value,
+                                 const char *first, const char *second) const
+{
+  if (value != first && value != second)
+    error->all(FLERR, "Fix {}: {} must be {} or {}, not {}", style, keyword, first, second, value);
+  return value == second;
+}
+
+void FixFoamIntegrate::settings(int narg, char **arg, const Keywords &own)
+{
+  if (narg < 4) error->all(FLERR, "Fix {} needs the tolerance as first argument", style);
+  const FoamInput input(lmp, error, fmt::format("Fix {}", style));
+  control.tolerance = input.number("tolerance", arg[3], FoamInput::ABOVE, 0.0);
+
+  std::string keywords = "dt0, dtmax, variable, norm, drift";
+  for (const auto &one : own) keywords += ", " + one.first;
+  for (int iarg = 4; iarg < narg; iarg += 2) {
+    const std::string keyword = arg[iarg];
+    if (iarg + 2 > narg)
+      error->all(FLERR, "Fix {}: keyword {} needs a value (keywords are {})", style, keyword,
+                 keywords);
+    const std::string value = arg[iarg + 1];
+    const auto mine = own.find(keyword);
+    if (keyword == "dt0")
+      dt_start = input.number("dt0", value, FoamInput::ABOVE, 0.0);
+    else if (keyword == "dtmax")
+      dt_limit = input.number("dtmax", value, FoamInput::ABOVE, 0.0);
+    else if (keyword == "variable")
+      variable = second_of(keyword, value, "volume", "radius") ? Foam::Variable::RADIUS
+                                                               : Foam::Variable::VOLUME;
+    else if (keyword == "norm")
+      norm = second_of(keyword, value, "max", "rms") ? Foam::Norm::RMS : Foam::Norm::MAX;
+    else if (keyword == "drift")
+      drift_removed = second_of(keyword, value, "keep", "remove");
+    else if (mine != own.end())
+      mine->second(value);
+    else
+      error->all(FLERR, "Fix {}: unknown keyword {} (allowed are {})", style, keyword, keywords);
+  }
 }
 
 FixFoamIntegrate::~FixFoamIntegrate()
@@ -446,10 +451,6 @@ void FixFoamIntegrate::judge(const FoamTotals &mine)
   error_last = step_error(norm, totals.max[ERROR], totals.sum[SQUARES],
                           bubbles * (dim + (gas ? 1 : 0)), pair->rin);
   if (totals.sum[BAD] > 0.0) error_last = INFINITY;
-
-  // the candidate itself is within its error, in all components and the radius, of a listed state
-
-  totals.max[AHEAD] = MAX(totals.max[AHEAD], totals.max[MOVED] + (dim + 1) * totals.max[ERROR]);
 }
 
 // The history waits for the next rates, in one loop with them, unless these are known already,
@@ -462,7 +463,7 @@ bool FixFoamIntegrate::history_at_accept() const
 
 void FixFoamIntegrate::accept(double step)
 {
-  if (history_at_accept()) keep_history();
+  if (has_history() && history_at_accept()) keep_history();
   if (gas) remove_small();    // lets bubbles grow a little: adds to AHEAD
 
   time += step;
@@ -589,7 +590,7 @@ void FixFoamIntegrate::final_integrate()
 {
   if (!evaluates_again()) return;
   evaluations++;
-  take_rates(!history_at_accept());
+  take_rates(has_history() && !history_at_accept());
   have_lags = lagged();
 }
 
@@ -604,7 +605,7 @@ void FixFoamIntegrate::post_neighbor()
   start.use(atom->nmax);
   listed.use(atom->nmax);
   if (lagged()) v_start.use(atom->nmax);
-  if (!evaluates_again()) next.use(atom->nmax);
+  if (works()) work.use(atom->nmax);
   take_listed();
   if (domain->box_change) box_corners(corners_listed);
   list_is_new = true;
@@ -791,13 +792,21 @@ double FixFoamIntegrate::natural_time() const
   return gas && gas->K > 0.0 ? Foam::time_of_scaled(gas->K, 1.0, pair->rin) : 1.0;
 }
 
-// by default one unit of scaled time, or a thousand relaxation times at fixed radii
+// by default, one unit of scaled time, or a thousand relaxation times at fixed radii
 
 double FixFoamIntegrate::largest_step() const
 {
-  if (dt_limit > 0.0) return dt_limit;
-  if (gas && gas->K > 0.0) return Foam::time_of_scaled(gas->K, 1.0, pair->rin);
-  return 1000.0 * natural_time();
+  double largest = 1000.0 * natural_time();
+  if (dt_limit > 0.0)
+    largest = dt_limit;
+  else if (gas && gas->K > 0.0)
+    largest = Foam::time_of_scaled(gas->K, 1.0, pair->rin);
+  return MIN(largest, stable_step());
+}
+
+double FixFoamIntegrate::stable_step() const
+{
+  return INFINITY;
 }
 
 double FixFoamIntegrate::compute_vector(int n)
@@ -890,29 +899,31 @@ int FixFoamIntegrate::maxsize_restart()
   return 1 + columns.capacity() + lags.capacity() + low.capacity();
 }
 
+std::vector<double *> FixFoamIntegrate::progress()
+{
+  return {&time,     &h,           &h_before,   &h_last,       &accepted, &rejected,
+          &evaluations, &error_last, &bubbles_last, &rin_kept, &ain_kept, &have_lags};
+}
+
 void FixFoamIntegrate::write_restart(FILE *fp)
 {
   if (comm->me != 0) return;
-  const double values[] = {time,        h,          h_before,
-                           h_last,      accepted,   rejected,
-                           evaluations, error_last, double(atom->natoms),
-                           rin_kept,    ain_kept,   have_lags};
-  const int size = sizeof(values);
+  bubbles_last = atom->natoms;
+  std::vector<double> values;
+  for (const double *one : progress()) values.push_back(*one);
+  const int size = static_cast<int>(values.size() * sizeof(double));
   fwrite(&size, sizeof(int), 1, fp);
-  fwrite(values, size, 1, fp);
+  fwrite(values.data(), size, 1, fp);
 }
 
 void FixFoamIntegrate::restart(char *buf)
 {
   const auto *values = (const double *) buf;
-  double *const all[] = {&time,         &h,        &h_before,    &h_last,
-                         &accepted,     &rejected, &evaluations, &error_last,
-                         &bubbles_last, &rin_kept, &ain_kept,    &have_lags};
-  for (double *one : all) *one = *values++;
+  for (double *one : progress()) *one = *values++;
 }
 
 double FixFoamIntegrate::memory_usage()
 {
   return columns.bytes() + lags.bytes() + start.bytes() + v_start.bytes() + listed.bytes() +
-         next.bytes();
+         work.bytes();
 }

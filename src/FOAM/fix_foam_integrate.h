@@ -15,6 +15,10 @@
 #include "foam_host.h"
 
 #include <array>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
 
 namespace LAMMPS_NS {
 
@@ -67,7 +71,12 @@ class FixFoamIntegrate : public Fix {
   FoamReduce reduce;
   int dim;
 
-  // settings
+  // settings, from the command: keywords of all schemes, and own ones with what to do with a value
+
+  using Keywords = std::map<std::string, std::function<void(const std::string &)>>;
+  void settings(int, char **, const Keywords &own);
+  bool second_of(const std::string &keyword, const std::string &value, const char *first,
+                 const char *second) const;
 
   Foam::StepControl control;
   Foam::Variable variable = Foam::Variable::VOLUME;
@@ -85,8 +94,9 @@ class FixFoamIntegrate : public Fix {
   double bubbles_last = 0.0;                // their number at the end of the last run
   double rin_kept = 0.0, ain_kept = 0.0;    // for a pair style that is replaced in mid-simulation
   double have_lags = 0.0;                   // 1 if LAG and LAST are those of a previous run
+  virtual std::vector<double *> progress();
 
-  // per bubble, travelling with it
+  // per bubble, travelling with it; those of the step before are for the scheme to use
 
   enum { Q, QDOT, VX_BEFORE, VY_BEFORE, VZ_BEFORE, QDOT_BEFORE, NCOLUMNS };
   FoamColumns columns{NCOLUMNS};
@@ -111,18 +121,22 @@ class FixFoamIntegrate : public Fix {
   FoamColumns v_start{3};       // v_n, where neighbor drag needs LAMMPS' v for l
   enum { XLISTED, YLISTED, ZLISTED, RLISTED, NLISTED };
   FoamColumns listed{NLISTED};
-  FoamColumns next{4};    // v, qdot of the predicted state, where they are to be f_{n+1}
+  FoamColumns work{5};    // of the scheme, within a step
 
   // ---- what a scheme does
 
   virtual FoamTotals attempt(double step, bool first) = 0;    // candidate, judged: see Foam::Judge
-  virtual bool evaluates_again() const { return true; }       // or has the next rates already
+  virtual bool evaluates_again() const { return true; }       // or has the next rates in work
+  virtual bool has_history() const { return true; }           // needs f_{n-1}
+  virtual bool works() const { return false; }                // uses work
+  virtual double stable_step() const;                         // no step may be longer
 
   // ---- what a scheme uses
 
   void evaluate();    // forces of the state in x and radius, with l in v
 
   bool lagged() const;    // does the pair style take l from v
+  double natural_time() const;
   template <class Space> Foam::State<typename Space::Bubbles> state(Space &here)
   {
     auto at = [&](FoamColumns &c, int k) {
@@ -130,6 +144,9 @@ class FixFoamIntegrate : public Fix {
     };
     auto v_at = [&](int k) {
       return lagged() ? here.column(v_start, k) : nullptr;
+    };
+    auto next_at = [&](int k) {
+      return evaluates_again() ? nullptr : here.column(work, k);
     };
     return {here.bubbles(),
             at(columns, Q),
@@ -143,8 +160,8 @@ class FixFoamIntegrate : public Fix {
             {at(lags, LAGX), at(lags, LAGY), at(lags, LAGZ)},
             {at(listed, XLISTED), at(listed, YLISTED), at(listed, ZLISTED)},
             at(listed, RLISTED),
-            {at(next, 0), at(next, 1), at(next, 2)},
-            at(next, 3),
+            {next_at(0), next_at(1), next_at(2)},
+            next_at(3),
             gas != nullptr,
             variable};
   }
@@ -203,7 +220,6 @@ class FixFoamIntegrate : public Fix {
   void stop_run(const std::string &);
   bool output_due() const;
   double largest_step() const;
-  double natural_time() const;
   double list_margin() const;
   void box_corners(double (*)[3]) const;
 };

@@ -10,6 +10,7 @@
 #ifndef LMP_FOAM_LOOPS_H
 #define LMP_FOAM_LOOPS_H
 
+#include "foam_chebyshev.h"
 #include "foam_physics.h"
 #include "foam_reduce.h"
 #include "foam_stepper.h"
@@ -333,6 +334,19 @@ template <class B> struct TakeListed {
   }
 };
 
+// how far a bubble has moved and grown since then
+
+template <int D, class B> FOAM_FUNCTION double from_listed(const State<B> &s, int i, double R)
+{
+  double square = 0.0;
+  for (int k = 0; k < D; k++) {
+    const double d = s.b.place(i, k) - s.x_listed[k][i];
+    square += d * d;
+  }
+  const double growth = s.grows ? R - s.radius_listed[i] : 0.0;
+  return std::sqrt(square) + (growth > 0.0 ? growth : 0.0);
+}
+
 // Everything that has to be known of a candidate, over all ranks at once: its error, whether
 // the list still holds, and the bubbles that it would leave
 
@@ -363,6 +377,7 @@ template <int D, class B> struct Judge {
     const double R = s.b.radius(i), q = s.q[i];
     const double growth = s.grows ? 2.0 * R - s.radius_start[i] - s.radius_listed[i] : 0.0;
     raise(all.max[AHEAD], std::sqrt(square) + (growth > 0.0 ? growth : 0.0));
+    raise(all.max[AHEAD], from_listed<D>(s, i, R));
     if (!std::isfinite(square) || !std::isfinite(q)) all.sum[BAD] += 1.0;
 
     if (!s.grows) {    // nobody asks for their sums
@@ -506,6 +521,185 @@ template <int D, class B> struct Correct {
     }
     for (int k = 0; k < D; k++) s.b.put(i, k, corrected[k]);
     judge(i, largest, squares, std::sqrt(square) + moved, all);
+  }
+};
+
+// ---------------------------------------------------------------------- Runge-Kutta-Chebyshev
+
+// Between two stages x, q and radius in LAMMPS and State are Y_{j-1}, these Y_{j-2}; and how far
+// the evaluated stages were from the listed state
+
+struct Stages {
+  double *x_before[3], *q_before, *moved;
+};
+
+template <int D, class B> struct FirstStage {
+  static constexpr const char *NAME = "foam: first stage";
+  State<B> s;
+  Stages y;
+  double step;    // m_1 h
+  bool first;     // attempt of this step
+  FOAM_FUNCTION void operator()(int i) const
+  {
+    if (first) keep_start<D>(s, i);
+    for (int k = 0; k < D; k++) {
+      y.x_before[k][i] = s.x_start[k][i];
+      s.b.put(i, k, s.x_start[k][i] + step * s.v(i, k));
+    }
+    if (s.grows) {
+      y.q_before[i] = s.q_start[i];
+      s.q[i] = s.q_start[i] + step * s.qdot[i];
+      s.b.radius(i) = radius_of<D>(s.variable, s.q[i]);
+    }
+    y.moved[i] = 0.0;
+  }
+};
+
+template <int D, class B> struct NextStage {
+  static constexpr const char *NAME = "foam: next stage";
+  State<B> s;
+  Stages y;
+  Rates<D, B> rates;    // F_{j-1}
+  Chebyshev::Stage c;
+  double h;
+  FOAM_FUNCTION void operator()(int i) const
+  {
+    const double moved = from_listed<D>(s, i, s.b.radius(i));
+    if (moved > y.moved[i]) y.moved[i] = moved;
+    const double qdot = s.grows ? rates.qdot(i) : 0.0;
+    for (int k = 0; k < D; k++) {
+      const double last = s.b.place(i, k);
+      s.b.put(i, k, advance(s.x_start[k][i], last, y.x_before[k][i], rates.velocity(i, k),
+                            s.v(i, k), h, c));
+      y.x_before[k][i] = last;
+    }
+    if (s.grows) {
+      const double last = s.q[i];
+      s.q[i] = advance(s.q_start[i], last, y.q_before[i], qdot, s.qdot[i], h, c);
+      s.b.radius(i) = radius_of<D>(s.variable, s.q[i]);
+      y.q_before[i] = last;
+    }
+  }
+};
+
+template <int D, class B> struct LastStage {
+  static constexpr const char *NAME = "foam: last stage and judge";
+  NextStage<D, B> next;
+  Judge<D, B> judge;
+  double place;    // c_{s-1}
+  FOAM_FUNCTION void operator()(int i, FoamTotals &all) const
+  {
+    const State<B> &s = next.s;
+    double largest = 0.0, squares = 0.0;
+    auto add = [&](double error) {
+      error = std::fabs(error);
+      if (error > largest) largest = error;
+      squares += error * error;
+    };
+    for (int k = 0; k < D; k++)
+      add(stage_error(s.x_start[k][i], s.b.place(i, k), next.rates.velocity(i, k), s.v(i, k),
+                      next.h, place));
+    if (s.grows) {
+      const double error = stage_error(s.q_start[i], s.q[i], next.rates.qdot(i), s.qdot[i],
+                                       next.h, place);
+      add(radius_of<D>(s.variable, s.q[i] + error) - s.b.radius(i));
+    }
+    next(i);
+    judge(i, largest, squares, next.y.moved[i], all);
+  }
+};
+
+// The spectral radius of the Jacobian by power iteration: a small step in a direction d, the
+// change of rates is the next d
+
+enum DirectionSum { DIRECTION };    // sum of squares, q in units of length
+enum DirectionMax { COMPONENT };
+
+template <class B> struct Direction {
+  State<B> s;    // in the place of f_{n-1}
+  double q_unit;    // dq / dR at the mean radius
+
+  template <int D> FOAM_FUNCTION void measure(int i, FoamTotals &all) const
+  {
+    for (int k = 0; k < D; k++) add(s.v_before[k][i], all);
+    if (s.grows) add(s.qdot_before[i] / q_unit, all);
+  }
+
+ private:
+  FOAM_FUNCTION static void add(double d, FoamTotals &all)
+  {
+    all.sum[DIRECTION] += d * d;
+    if (std::fabs(d) > all.max[COMPONENT]) all.max[COMPONENT] = std::fabs(d);
+  }
+};
+
+// a first direction: any will do, the same on any number of ranks
+
+template <int D, class B> struct AnyDirection {
+  static constexpr const char *NAME = "foam: any direction";
+  Direction<B> d;
+  FOAM_FUNCTION void operator()(int i, FoamTotals &all) const
+  {
+    const bool alive = d.s.b.radius(i) > 0.0;
+    for (int k = 0; k < D; k++) d.s.v_before[k][i] = alive ? number(i, k) : 0.0;
+    d.s.qdot_before[i] = alive && d.s.grows ? number(i, D) * d.q_unit : 0.0;
+    d.template measure<D>(i, all);
+  }
+
+ private:
+  FOAM_FUNCTION double number(int i, int k) const    // -1 ... 1
+  {
+    const double golden = 0.6180339887498949, root = 0.7548776662466927;
+    const double turns = golden * d.s.b.tag(i) + root * (k + 1);
+    return 2.0 * (turns - std::floor(turns)) - 1.0;
+  }
+};
+
+template <int D, class B> struct StepAside {
+  static constexpr const char *NAME = "foam: step aside";
+  State<B> s;
+  double amount;
+  FOAM_FUNCTION void operator()(int i) const
+  {
+    for (int k = 0; k < D; k++)
+      s.b.put(i, k, s.x_start[k][i] + amount * s.v_before[k][i]);
+    if (s.grows) {
+      s.q[i] = s.q_start[i] + amount * s.qdot_before[i];
+      s.b.radius(i) = radius_of<D>(s.variable, s.q[i]);
+    }
+  }
+};
+
+template <int D, class B> struct TakeDirection {
+  static constexpr const char *NAME = "foam: take direction";
+  Direction<B> d;
+  Rates<D, B> rates;
+  double amount;    // length of the step aside
+  FOAM_FUNCTION void operator()(int i, FoamTotals &all) const
+  {
+    const State<B> &s = d.s;
+    for (int k = 0; k < D; k++)
+      s.v_before[k][i] = (rates.velocity(i, k) - s.v(i, k)) / amount;
+    if (s.grows) s.qdot_before[i] = (rates.qdot(i) - s.qdot[i]) / amount;
+    d.template measure<D>(i, all);
+  }
+};
+
+template <int D, class B> struct KeepStart {
+  static constexpr const char *NAME = "foam: keep start";
+  State<B> s;
+  FOAM_FUNCTION void operator()(int i) const { keep_start<D>(s, i); }
+};
+
+// with neighbor drag: the rates of the start with the l of this step
+
+template <int D, class B> struct TakeStartRates {
+  static constexpr const char *NAME = "foam: take rates of the start";
+  State<B> s;
+  Rates<D, B> rates;
+  FOAM_FUNCTION void operator()(int i) const
+  {
+    for (int k = 0; k < D; k++) s.v_start[k][i] = rates.velocity(i, k);
   }
 };
 

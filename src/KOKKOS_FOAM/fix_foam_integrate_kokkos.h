@@ -84,7 +84,7 @@ class FixFoamIntegrateKokkos : public Style, public KokkosBase {
     this->execution_space = FoamKokkos<DeviceType>::SPACE;
     this->datamask_read = this->datamask_modify = EMPTY_MASK;    // the loops see to it
     for (FoamColumns *c : {&this->columns, &this->lags, &this->low, &this->start, &this->v_start,
-                           &this->listed, &this->next})
+                           &this->listed, &this->work})
       here.keep(*c);
     if (std::is_same_v<KK_FLOAT, float>) {
       this->low.use(lmp->atom->nmax);

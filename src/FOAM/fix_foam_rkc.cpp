@@ -1,0 +1,68 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   This software is distributed under the GNU General Public License.
+   Wet-foam package: see the README file of the package.
+------------------------------------------------------------------------- */
+
+#include "fix_foam_rkc.h"
+
+#include "foam_input.h"
+
+#include "error.h"
+
+using namespace LAMMPS_NS;
+
+FixFoamRKC::FixFoamRKC(LAMMPS *lmp, int narg, char **arg) : FixFoamIntegrate(lmp, narg, arg)
+{
+  norm = Foam::Norm::RMS;
+  const FoamInput input(lmp, error, fmt::format("Fix {}", style));
+  settings(narg, arg,
+           {{"stages",
+             [&](const std::string &value) {
+               using Foam::Chebyshev;
+               if (value == "auto") return;
+               const bigint n = utils::is_integer(value) ? utils::bnumeric(FLERR, value, false, lmp)
+                                                         : 0;
+               if (n < Chebyshev::FEWEST || n > Chebyshev::MOST)
+                 error->all(FLERR, "Fix {}: stages must be auto or an integer from {} to {}, not {}",
+                            style, int(Chebyshev::FEWEST), int(Chebyshev::MOST), value);
+               stages_given = static_cast<int>(n);
+             }},
+            {"spectral", [&](const std::string &value) {
+               if (value != "auto")
+                 radius_given = input.number("spectral", value, FoamInput::ABOVE, 0.0);
+             }}});
+  size_vector = 8;
+}
+
+FoamTotals FixFoamRKC::attempt(double step, bool first)
+{
+  FoamHost here(lmp);
+  return dim == 2 ? attempt_in<2>(here, step, first) : attempt_in<3>(here, step, first);
+}
+
+double FixFoamRKC::stable_step() const
+{
+  const double largest = spectral_radius();
+  const int most = stages_given ? stages_given : Foam::Chebyshev::MOST;
+  return largest > 0.0 ? Foam::Chebyshev::stable(most) / largest : INFINITY;
+}
+
+std::vector<double *> FixFoamRKC::progress()
+{
+  auto all = FixFoamIntegrate::progress();
+  for (double *one :
+       {&radius, &radius_step, &direction_size, &direction_most, &stages_last, &rejected_then})
+    all.push_back(one);
+  return all;
+}
+
+double FixFoamRKC::compute_vector(int n)
+{
+  if (n == 6) return stages_last;
+  if (n == 7) return radius_given > 0.0 ? radius_given : radius;
+  return FixFoamIntegrate::compute_vector(n);
+}

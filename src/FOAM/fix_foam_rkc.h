@@ -1,0 +1,149 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   This software is distributed under the GNU General Public License.
+   Wet-foam package: see the README file of the package.
+------------------------------------------------------------------------- */
+
+#ifdef FIX_CLASS
+// clang-format off
+FixStyle(foam/rkc,FixFoamRKC);
+// clang-format on
+#else
+
+#ifndef LMP_FIX_FOAM_RKC_H
+#define LMP_FIX_FOAM_RKC_H
+
+#include "fix_foam_integrate.h"
+
+#include "atom.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace LAMMPS_NS {
+
+// Stabilised Runge-Kutta-Chebyshev steps of order 2, see foam_chebyshev.h: springs relax much
+// faster than the foam changes, and stages make a step stable for less than steps would.
+
+class FixFoamRKC : public FixFoamIntegrate {
+ public:
+  FixFoamRKC(class LAMMPS *, int, char **);
+  double compute_vector(int) override;
+
+ protected:
+  FoamTotals attempt(double, bool) override;
+  bool has_history() const override { return false; }
+  bool works() const override { return true; }
+  double stable_step() const override;
+  std::vector<double *> progress() override;
+
+  // settings
+
+  int stages_given = 0;         // 0: as many as a step needs
+  double radius_given = 0.0;    // 0: estimated
+
+  // Estimate of the spectral radius, by power iteration; its direction lies where other schemes
+  // have f_{n-1}
+
+  double radius = 0.0;              // of the Jacobian, as estimated
+  double radius_step = -1.0;        // number of accepted steps when it was
+  double direction_size = 0.0;      // of the direction; 0: none yet
+  double direction_most = 0.0;      // its largest component
+  double stages_last = 0.0;
+  double rejected_then = 0.0;        // rejected steps when the radius was estimated
+
+  // An underestimate by less than this does no harm
+
+  static constexpr double MARGIN = 1.1;
+  static constexpr int STEPS = 25, FEW = 10;    // between estimates; if one was rejected
+  static constexpr int ITERATIONS = 50;         // of an estimate
+  static constexpr double ENOUGH = 0.02;               // relative change of the last iteration
+  static constexpr double ASIDE = 1.0e-6;              // how far, in <R_in>
+
+  double spectral_radius() const { return radius_given > 0.0 ? radius_given : MARGIN * radius; }
+  bool estimate_due() const
+  {
+    return radius_given == 0.0 && radius_step != accepted &&
+        (radius_step < 0.0 || accepted - radius_step >= (rejected == rejected_then ? STEPS : FEW));
+  }
+
+  template <class Space> Foam::Stages stages(Space &here)
+  {
+    auto at = [&](int k) {
+      return here.column(work, k);
+    };
+    return {{at(0), at(1), at(2)}, at(3), at(4)};
+  }
+  template <int D, class Space> FoamTotals attempt_in(Space &here, double step, bool first);
+  template <int D, class Space> void estimate_in(Space &here);
+};
+
+template <int D, class Space>
+FoamTotals FixFoamRKC::attempt_in(Space &here, double step, bool first)
+{
+  using namespace Foam;
+  using B = typename Space::Bubbles;
+  const int nlocal = atom->nlocal;
+
+  if (first && lagged()) {
+    here.for_each(nlocal, KeepStart<D, B>{state(here)});
+    first = false;
+    evaluate();
+    here.for_each(nlocal, TakeStartRates<D, B>{state(here), rates<D>(here)});
+  }
+  if (estimate_due()) {
+    if (first) here.for_each(nlocal, KeepStart<D, B>{state(here)});
+    first = false;
+    estimate_in<D>(here);
+  }
+
+  // a step that turns out too long to be stable is shortened by the error that it has
+
+  const Chebyshev c(stages_given ? stages_given : Chebyshev::count_for(step * spectral_radius()));
+  stages_last = c.count();
+  here.for_each(nlocal, FirstStage<D, B>{state(here), stages(here), step * c[1].rate_start, first});
+  for (int j = 2; j < c.count(); j++) {
+    evaluate();
+    here.for_each(nlocal, NextStage<D, B>{state(here), stages(here), rates<D>(here), c[j], step});
+  }
+  evaluate();
+  const auto s = state(here);
+  const NextStage<D, B> last{s, stages(here), rates<D>(here), c[c.count()], step};
+  return here.totals(nlocal, LastStage<D, B>{last, judge_of<D>(s), c[c.count() - 1].place});
+}
+
+template <int D, class Space> void FixFoamRKC::estimate_in(Space &here)
+{
+  using namespace Foam;
+  using B = typename Space::Bubbles;
+  const int nlocal = atom->nlocal;
+  const double Rin = pair->rin;
+  const double q_unit = variable == Variable::VOLUME ? D * std::pow(Rin, D - 1) : 1.0;
+  auto take = [&](const FoamTotals &mine) {
+    const FoamTotals all = reduce(mine);
+    direction_size = std::sqrt(all.sum[DIRECTION]);
+    direction_most = all.max[COMPONENT];
+  };
+  if (!(direction_size > 0.0) || !std::isfinite(direction_size))
+    take(here.totals(nlocal, AnyDirection<D, B>{{state(here), q_unit}}));
+
+  for (int n = 0; n < ITERATIONS && direction_most > 0.0; n++) {
+    const double before = radius, amount = ASIDE * Rin / direction_most;
+    here.for_each(nlocal, StepAside<D, B>{state(here), amount});
+    evaluate();
+    take(here.totals(nlocal, TakeDirection<D, B>{{state(here), q_unit}, rates<D>(here),
+                                                 amount * direction_size}));
+    radius = direction_size;
+    if (std::fabs(radius - before) <= ENOUGH * radius) break;
+  }
+  radius_step = accepted;
+  rejected_then = rejected;
+}
+
+}    // namespace LAMMPS_NS
+
+#endif
+#endif
