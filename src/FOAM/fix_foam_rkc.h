@@ -60,8 +60,8 @@ class FixFoamRKC : public FixFoamIntegrate {
   static constexpr double MARGIN = 1.1;
   static constexpr int STEPS = 25, FEW = 10;    // between estimates; if one was rejected
   static constexpr int ITERATIONS = 50;         // of an estimate
-  static constexpr double ENOUGH = 0.02;               // relative change of the last iteration
-  static constexpr double ASIDE = 1.0e-6;              // how far, in <R_in>
+  static constexpr double ENOUGH = 0.02;        // relative change of the last iteration
+  double aside = 1.0e-6;    // step aside of the bubble that moves most, in <R_in>: see FixFoamRKCKokkos
 
   double spectral_radius() const { return radius_given > 0.0 ? radius_given : MARGIN * radius; }
   bool estimate_due() const
@@ -131,7 +131,7 @@ template <int D, class Space> void FixFoamRKC::estimate_in(Space &here)
     take(here.totals(nlocal, AnyDirection<D, B>{{state(here), q_unit}}));
 
   for (int n = 0; n < ITERATIONS && direction_most > 0.0; n++) {
-    const double before = radius, amount = ASIDE * Rin / direction_most;
+    const double before = radius, amount = aside * Rin / direction_most;
     here.for_each(nlocal, StepAside<D, B>{state(here), amount});
     evaluate();
     take(here.totals(nlocal, TakeDirection<D, B>{{state(here), q_unit}, rates<D>(here),
