@@ -119,7 +119,7 @@ template <int D> struct Exchange {
   double K = 0.0, kappa = 0.0;
   LiquidLaw law = LiquidLaw::AREA;
   double Rin = 0.0, Ain = 0.0;
-  const double *film = nullptr, *area = nullptr;    // sums over contacts, of each bubble
+  const double *film = nullptr, *area = nullptr;    // sums over contacts, of each bubble; or none
 
   bool through_liquid() const { return K > 0.0 && kappa > 0.0; }
 
@@ -144,7 +144,7 @@ template <int D> struct Exchange {
   FOAM_FUNCTION Split operator()(int i, double R) const
   {
     if (!(R > 0.0) || !(K > 0.0)) return {0.0, 0.0};
-    Split split{K * film[i], 0.0};
+    Split split{film ? K * film[i] : 0.0, 0.0};
     const Liquid l = sums.elsewhere ? of(sums) : liquid;
     if (l.coefficient > 0.0)
       split.liquid = liquid_exchange(l.coefficient, weight(i, R), l.inverse_rho, R);
