@@ -19,6 +19,7 @@ FixStyle(foam/rkc,FixFoamRKC);
 #include "fix_foam_integrate.h"
 
 #include "atom.h"
+#include "domain.h"
 
 #include <algorithm>
 #include <cmath>
@@ -88,7 +89,9 @@ FoamTotals FixFoamRKC::attempt_in(Space &here, double step, bool first)
   using B = typename Space::Bubbles;
   const int nlocal = atom->nlocal;
 
-  if (first && lagged()) {
+  // F_0 is known from the last step, unless l has changed since or the box has taken the bubbles along
+
+  if (first && (lagged() || domain->box_change)) {
     here.for_each(nlocal, KeepStart<D, B>{state(here)});
     first = false;
     evaluate();

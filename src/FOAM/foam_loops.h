@@ -691,7 +691,7 @@ template <int D, class B> struct KeepStart {
   FOAM_FUNCTION void operator()(int i) const { keep_start<D>(s, i); }
 };
 
-// with neighbor drag: the rates of the start with the l of this step
+// the rates of the start, evaluated anew
 
 template <int D, class B> struct TakeStartRates {
   static constexpr const char *NAME = "foam: take rates of the start";
@@ -699,7 +699,14 @@ template <int D, class B> struct TakeStartRates {
   Rates<D, B> rates;
   FOAM_FUNCTION void operator()(int i) const
   {
-    for (int k = 0; k < D; k++) s.v_start[k][i] = rates.velocity(i, k);
+    for (int k = 0; k < D; k++) {
+      const double v = rates.velocity(i, k);
+      if (s.v_start[0])
+        s.v_start[k][i] = v;
+      else
+        s.b.v(i, k) = v;
+    }
+    if (s.grows) s.qdot[i] = rates.qdot(i);
   }
 };
 
