@@ -117,6 +117,7 @@ FOAM_FUNCTION void add_free_surface(LiquidLaw law, double R, double contact_area
 
 template <int D> struct Exchange {
   double K = 0.0, kappa = 0.0;
+  bool through_films = true;
   LiquidLaw law = LiquidLaw::AREA;
   double Rin = 0.0, Ain = 0.0;
   const double *film = nullptr, *area = nullptr;    // sums over contacts, of each bubble
@@ -144,7 +145,7 @@ template <int D> struct Exchange {
   FOAM_FUNCTION Split operator()(int i, double R) const
   {
     if (!(R > 0.0) || !(K > 0.0)) return {0.0, 0.0};
-    Split split{K * film[i], 0.0};
+    Split split{through_films ? K * film[i] : 0.0, 0.0};
     const Liquid l = sums.elsewhere ? of(sums) : liquid;
     if (l.coefficient > 0.0)
       split.liquid = liquid_exchange(l.coefficient, weight(i, R), l.inverse_rho, R);
