@@ -27,8 +27,8 @@ using namespace FixConst;
 /* ---------------------------------------------------------------------- */
 
 FixFoamCoarsen::FixFoamCoarsen(LAMMPS *lmp, int narg, char **arg)
-    : Fix(lmp, narg, arg), pair(nullptr), law(Foam::LiquidLaw::AREA), films(true), rmin(0.1),
-      ain_given(0.0), nmin(0), rho(0.0), time(0.0), removed_bubbles(0.0), removed_gas(0.0), dead(false)
+    : Fix(lmp, narg, arg), pair(nullptr), law(Foam::LiquidLaw::AREA), rmin(0.1), ain_given(0.0),
+      nmin(0), rho(0.0), time(0.0), removed_bubbles(0.0), removed_gas(0.0), dead(false)
 {
   if (igroup != 0)
     error->all(FLERR, "Fix foam/coarsen needs group all, since gas exchange couples all bubbles");
@@ -44,7 +44,6 @@ FixFoamCoarsen::FixFoamCoarsen(LAMMPS *lmp, int narg, char **arg)
         [&](const Value &v) {
           law = v.one_of({"area", "lsw"}) == 1 ? Foam::LiquidLaw::LSW : Foam::LiquidLaw::AREA;
         }},
-       {"film", [&](const Value &v) { films = v.one_of({"no", "yes"}) == 1; }},
        {"nmin", [&](const Value &v) { nmin = v.count(); }},
        {"ain", [&](const Value &v) { ain_given = v.number(FoamInput::ABOVE, 0.0); }}});
 

@@ -56,7 +56,6 @@ class FixFoamCoarsen : public Fix {
     Foam::Exchange<D> gas;
     gas.K = K;
     gas.kappa = kappa;
-    gas.through_films = films;
     gas.law = law;
     gas.Rin = pair->rin;
     gas.Ain = ain_given > 0.0 ? ain_given : pair->ain;
@@ -91,7 +90,6 @@ class FixFoamCoarsen : public Fix {
  protected:
   class PairDurianFoam *pair;
   Foam::LiquidLaw law;
-  bool films;          // exchange through them
   double rmin;         // in units of <R_in>
   double ain_given;    // <A_in> if the user gave it, else 0
   bigint nmin;

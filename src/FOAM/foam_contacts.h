@@ -47,12 +47,6 @@ template <class Run> bool for_each_gathered(unsigned what, Run &&run)
     case FORCE | FILM | AREA | DRAG:
       run.template operator()<FORCE | FILM | AREA | DRAG>();
       return true;
-    case FORCE | AREA:
-      run.template operator()<FORCE | AREA>();
-      return true;
-    case FORCE | AREA | DRAG:
-      run.template operator()<FORCE | AREA | DRAG>();
-      return true;
     case TO_LOOK_AT:
       run.template operator()<TO_LOOK_AT>();
       return true;
@@ -139,7 +133,6 @@ template <int D, unsigned WHAT, bool ASSIGN, class B, class List, class Tally> s
         exchange = film_exchange(A, Ri, Rj);
         film_i += exchange;
       }
-      if constexpr (WHAT & AREA) area_i += A;
       if constexpr (WHAT & ENERGY) {
         half_spring = 0.5 * spring_energy(sigma * Rin, overlap, Rsum);
         durian = durian_energy(sigma, overlap);

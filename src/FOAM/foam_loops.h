@@ -117,7 +117,6 @@ FOAM_FUNCTION void add_free_surface(LiquidLaw law, double R, double contact_area
 
 template <int D> struct Exchange {
   double K = 0.0, kappa = 0.0;
-  bool through_films = true;
   LiquidLaw law = LiquidLaw::AREA;
   double Rin = 0.0, Ain = 0.0;
   const double *film = nullptr, *area = nullptr;    // sums over contacts, of each bubble; or none
