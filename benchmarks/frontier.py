@@ -4,6 +4,8 @@ from pathlib import Path
 
 import numpy as np
 
+from scenes import SCENES
+
 # column, what it is called, at the last time (or at the first, before chaos)
 ERRORS = {
     "error R": (r"mean radius, relative", "last"),
@@ -91,7 +93,6 @@ def groups(rows):
 # ---- tables -------------------------------------------------------------------------------------
 
 def tables(rows):
-    from tradeoff import SCENES
     parts = []
     for group in groups(rows):
         scene = SCENES[group.scene]
@@ -170,7 +171,6 @@ def draw(rows, directory):
 def diagram(group, path):
     """Error over evaluations, a curve for each method, a panel for each error."""
     import matplotlib.pyplot as plt
-    from tradeoff import SCENES
     scene = SCENES[group.scene]
     unit = r"\tau" if scene.K else r"\gamma"
     shown = [(column, *about) for column, about in ERRORS.items()

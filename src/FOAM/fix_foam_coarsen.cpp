@@ -39,6 +39,7 @@ FixFoamCoarsen::FixFoamCoarsen(LAMMPS *lmp, int narg, char **arg)
   kappa = input.argument("kappa").number(FoamInput::AT_LEAST, 0.0);
   input.keywords(
       {{"rmin", [&](const Value &v) { rmin = v.number(FoamInput::AT_LEAST, 0.0); }},
+       {"film", [&](const Value &v) { through_films = v.one_of({"no", "yes"}); }},
        {"liquid",
         [&](const Value &v) {
           law = v.one_of({"area", "lsw"}) == 1 ? Foam::LiquidLaw::LSW : Foam::LiquidLaw::AREA;
@@ -75,7 +76,7 @@ void FixFoamCoarsen::init()
 unsigned FixFoamCoarsen::wanted() const
 {
   unsigned what = 0;
-  if (K > 0.0) what |= Foam::FILM;
+  if (K > 0.0 && through_films) what |= Foam::FILM;
   if (K > 0.0 && kappa > 0.0) what |= Foam::AREA;
   return what;
 }

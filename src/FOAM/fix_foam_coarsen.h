@@ -60,7 +60,7 @@ class FixFoamCoarsen : public Fix {
     gas.law = law;
     gas.Rin = pair->rin;
     gas.Ain = ain_given > 0.0 ? ain_given : pair->ain;
-    gas.film = here.column(pair->film, 0);
+    if (through_films) gas.film = here.column(pair->film, 0);
     gas.area = here.column(pair->area, 0);
     using Body = Foam::LiquidSums<D, typename Space::Bubbles>;
     if (gas.through_liquid())
@@ -85,6 +85,7 @@ class FixFoamCoarsen : public Fix {
   std::string end_reached() const;    // why the run is over, or empty
 
   double K, kappa;
+  bool through_films = true;
   bool has_dead() const { return dead; }
 
  protected:

@@ -12,11 +12,10 @@
 
 #include "fix.h"
 #include "fix_foam_coarsen.h"
+#include "foam_input.h"
 #include "foam_host.h"
 
 #include <array>
-#include <functional>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -73,10 +72,9 @@ class FixFoamIntegrate : public Fix {
 
   // settings, from the command: keywords of all schemes, and own ones with what to do with a value
 
-  using Keywords = std::map<std::string, std::function<void(const std::string &)>>;
-  void settings(int, char **, const Keywords &own);
-  bool second_of(const std::string &keyword, const std::string &value, const char *first,
-                 const char *second) const;
+  void settings(int, char **, const FoamInput::Keywords &own);
+  void add_callbacks();
+  bool called_back = false;
 
   Foam::StepControl control;
   Foam::Variable variable = Foam::Variable::VOLUME;
@@ -201,6 +199,7 @@ class FixFoamIntegrate : public Fix {
   bool ghosts_checked = false;    // their radii are communicated
   bool lags_given = false;        // to LAMMPS' own evaluation before a run
   bool stopping = false;          // the run has reached its end
+  bool deform_told = false;       // what its styles make of changing steps
   bigint dump_foreseen = -1;      // step for which energies of bubbles were asked for in time
   int delay_given = -1;           // neigh_modify delay, which does not count during a run
   FoamTotals totals;              // of a candidate, over all ranks

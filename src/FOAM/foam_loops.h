@@ -119,7 +119,7 @@ template <int D> struct Exchange {
   double K = 0.0, kappa = 0.0;
   LiquidLaw law = LiquidLaw::AREA;
   double Rin = 0.0, Ain = 0.0;
-  const double *film = nullptr, *area = nullptr;    // sums over contacts, of each bubble
+  const double *film = nullptr, *area = nullptr;    // sums over contacts, of each bubble; or none
 
   bool through_liquid() const { return K > 0.0 && kappa > 0.0; }
 
@@ -144,7 +144,7 @@ template <int D> struct Exchange {
   FOAM_FUNCTION Split operator()(int i, double R) const
   {
     if (!(R > 0.0) || !(K > 0.0)) return {0.0, 0.0};
-    Split split{K * film[i], 0.0};
+    Split split{film ? K * film[i] : 0.0, 0.0};
     const Liquid l = sums.elsewhere ? of(sums) : liquid;
     if (l.coefficient > 0.0)
       split.liquid = liquid_exchange(l.coefficient, weight(i, R), l.inverse_rho, R);
@@ -691,7 +691,7 @@ template <int D, class B> struct KeepStart {
   FOAM_FUNCTION void operator()(int i) const { keep_start<D>(s, i); }
 };
 
-// with neighbor drag: the rates of the start with the l of this step
+// the rates of the start, evaluated anew
 
 template <int D, class B> struct TakeStartRates {
   static constexpr const char *NAME = "foam: take rates of the start";
@@ -699,7 +699,14 @@ template <int D, class B> struct TakeStartRates {
   Rates<D, B> rates;
   FOAM_FUNCTION void operator()(int i) const
   {
-    for (int k = 0; k < D; k++) s.v_start[k][i] = rates.velocity(i, k);
+    for (int k = 0; k < D; k++) {
+      const double v = rates.velocity(i, k);
+      if (s.v_start[0])
+        s.v_start[k][i] = v;
+      else
+        s.b.v(i, k) = v;
+    }
+    if (s.grows) s.qdot[i] = rates.qdot(i);
   }
 };
 
