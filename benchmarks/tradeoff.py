@@ -262,8 +262,7 @@ class Campaign:
                         yield name, bubbles, run
 
     def wanted(self, run):
-        return not run.against or run.curve == "chaos" or not self.args.curve or \
-            named(run, self.args.curve)
+        return run.curve == "reference" or not self.args.curve or named(run, self.args.curve)
 
     def missing(self, scene, bubbles, run):
         have = self.have(scene, bubbles, run)
@@ -406,7 +405,9 @@ def main():
     (args.out / "recommended.txt").write_text(frontier.recommended(rows) + "\n")
     show(frontier.tables(rows), args.out / "tradeoff.txt")
     try:
-        frontier.draw(rows, args.out)
+        frontier.draw(rows if args.draw else
+                      [row for row in rows if row["scene"] in args.scene and
+                       int(row["bubbles"]) in args.bubbles], args.out)
     except ImportError:
         say("no matplotlib, no diagrams: --draw makes them later")
     say(f"results: {args.out}/tradeoff.csv, tradeoff.txt")
