@@ -62,7 +62,7 @@ int FixFoamCoarsen::setmask()
 void FixFoamCoarsen::init()
 {
   pair = dynamic_cast<PairDurianFoam *>(force->pair_match("durian/foam", 0));
-  if (!pair) error->all(FLERR, "Fix foam/coarsen needs pair_style durian/foam");
+  if (!pair) error->all(FLERR, "Fix foam/coarsen needs one pair_style durian/foam");
   if (modify->get_fix_by_style("^foam/coarsen").size() > 1)
     error->all(FLERR, "Fix foam/coarsen: only one fix of this style can be used at a time");
   bool integrated = false;

@@ -45,6 +45,7 @@ class FixFoamCoarsen : public Fix {
   };
   Population population;
 
+  bool ready() const { return pair; }    // since its first run
   unsigned wanted() const;    // what the pair style has to gather for it
   Foam::LiquidLaw liquid_law() const { return law; }
 
