@@ -89,7 +89,7 @@ class PairDurianFoam : public Pair {
   unsigned gathered;            // what is sent in reverse communication
 
   void allocate();
-  void thicken_box();
+  void fit_thickness();
   void gather(unsigned);
   virtual void gather_contacts(unsigned);    // the loop itself
   struct Tally;
