@@ -106,7 +106,7 @@ compute       p all pressure NULL virial
 thermo_style  custom step atoms time pe f_step[*] {gas} c_p[*]
 {PRECISE}
 thermo        {self.thermo or self.every}
-dump          d all custom {self.every} dump id x y z vx vy vz fx fy fz radius c_b[*]
+dump          d all custom {self.every} dump id x y z xu yu zu vx vy vz fx fy fz radius c_b[*]
 dump_modify   d sort id format float %.17g time yes
 """
 

@@ -17,7 +17,7 @@ SHORT = 1e-9
 def units_of(dim, length, time, stiffness):
     """By what each number is multiplied that is not without units."""
     energy, gas = stiffness * length**2, length**dim
-    units = {name: length for name in ("x", "y", "z", "radius")}
+    units = {name: length for name in ("x", "y", "z", "xu", "yu", "zu", "radius")}
     units |= {name: length / time for name in ("vx", "vy", "vz", "c_b[6]")}
     units |= {name: stiffness * length for name in ("fx", "fy", "fz")}
     units |= {"c_b[2]": gas / length, "c_b[3]": gas / length, "c_b[4]": gas / time,
