@@ -21,7 +21,6 @@ import hashlib
 import os
 import re
 import shlex
-import sys
 import time
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -30,43 +29,16 @@ import numpy as np
 
 import machine
 from machine import HERE, Failed
+from run import choice_list, number_list, say
+from scenes import QUICK, SCENES
+from states import REACHED, errors, loop_seconds, read_state
 
 CHAOS = 1.0e-12         # displacement of bubbles at the start of runs that show chaos
-SEEDS = (1, 2, 3)       # so many of them
+SEEDS = (1, 2, 3)       # so many of them; of large foams, which are their own average, the first
+LARGE = 20_000
 
 
-# ---- scenes and settings ------------------------------------------------------------------------
-
-@dataclass
-class Scene:
-    title: str
-    dim: int = 2
-    phi: float = 0.90
-    K: float = 1.0e-3
-    gas: str = "0.1"        # arguments of fix foam/coarsen after K
-    rate: float = 0.0       # of shear
-    until: tuple = (0.02, 0.1, 1.0)     # tau, or strain: positions are compared at the first
-
-    @property
-    def clock(self):
-        return self.K or self.rate      # tau or strain in a unit of time
-
-    def variables(self):
-        return {"dim": self.dim, "K": self.K, "gas": self.gas, "rate": self.rate,
-                "until": tuple(f"{t / self.clock:.10g}" for t in self.until)}
-
-
-SCENES = {
-    "2d": Scene("2D, gas fraction 0.90"),
-    "jam": Scene("2D, gas fraction 0.845", phi=0.845),
-    "3d": Scene("3D, gas fraction 0.75", dim=3, phi=0.75),
-    "slow": Scene("2D, gas fraction 0.90, K = 1e-4", K=1.0e-4),
-    "bubbly": Scene("2D, bubbly liquid, gas fraction 0.3, kappa = 1", phi=0.3, gas="1.0"),
-    "shear": Scene("2D, gas fraction 0.90, fixed sizes, sheared at the rate 1e-4", K=0.0,
-                   rate=1.0e-4, until=(0.002, 0.01, 0.05)),
-}
-QUICK = ["2d", "3d", "shear"]
-
+# ---- settings ------------------------------------------------------------------------------------
 
 @dataclass
 class Run:
@@ -83,11 +55,12 @@ class Run:
         return f"{self.curve} {self.value}"
 
 
-def reference(bubbles):
+def reference(scene, bubbles):
     """The tightest settings that can be paid. The root mean square needs fewer steps for the same
     error at the end: doc/tradeoff.rst."""
-    step = "foam/abm 1e-9" if bubbles <= 2000 else "foam/abm 1e-8 norm rms"
-    return Run("reference", step.split()[1], step, against="")
+    tol = "1e-9" if bubbles <= 2000 else "1e-7" if bubbles > LARGE or scene == "slow" else "1e-8"
+    return Run("reference", tol, f"foam/abm {tol}" + (" norm rms" if bubbles > 2000 else ""),
+               against="")
 
 
 METHODS = {     # curve: step without tolerance
@@ -116,7 +89,7 @@ def chaos(bubbles):
     step = "foam/abm 1e-7" if bubbles <= 2000 else "foam/abm 1e-6 norm rms"
     return [Run("chaos", "0", step, against=""),
             *(Run("chaos", str(seed), step, {"nudge": CHAOS, "seed": seed}, against="chaos 0")
-              for seed in SEEDS)]
+              for seed in SEEDS[:1 if bubbles > LARGE else None])]
 
 
 def knobs(known, scene):
@@ -136,69 +109,18 @@ def knobs(known, scene):
     return runs
 
 
-# ---- states -------------------------------------------------------------------------------------
-
-def read_state(path):
-    """Columns id, radius, x, y, z of a dump, by id."""
-    lines = path.read_text().split("ITEM: ATOMS", 1)[1].split("\n", 1)[1]
-    return np.array(lines.split(), float).reshape(-1, 5)
-
-
-def distribution_distance(a, b):
-    """Largest distance of two cumulative distributions (Kolmogorov-Smirnov)."""
-    a, b = np.sort(a), np.sort(b)
-    at = np.concatenate([a, b])
-    return float(np.abs(np.searchsorted(a, at, "right") / len(a) -
-                        np.searchsorted(b, at, "right") / len(b)).max())
-
-
-def errors(state, row, other, other_row, dim):
-    """Differences of two states at one time, as columns of the table. Energies are compared
-    relatively, but for loose bubbles, which have none, as energies of a bubble."""
-    _, i, j = np.intersect1d(state[:, 0], other[:, 0], return_indices=True)
-    n, energy = len(other), float(other_row["energy"])
-    # the smallest bubbles shrink fastest: how far radii differ on the whole is another matter
-    return {
-        "error N": abs(len(state) - n) / n,
-        "error R": abs(float(row["R"]) / float(other_row["R"]) - 1.0),
-        "error energy": abs(float(row["energy"]) - energy) / max(energy, 1.0e-6 * n),
-        "error sizes": distribution_distance(state[:, 1], other[:, 1]),
-        "error radii": float(np.sqrt(np.mean((state[i, 1] - other[j, 1])**2))),
-        "error x": float(np.sqrt(np.mean((state[i, 2:2 + dim] - other[j, 2:2 + dim])**2) * dim)),
-    }
-
-
 # ---- runs ---------------------------------------------------------------------------------------
 
 COLUMNS = ["scene", "bubbles", "curve", "value", "step", "settings", "precision", "clock",
            "evaluations", "rejected", "steps", "seconds", "cpu seconds", "N", "R", "energy",
            "against", "error N", "error R", "error energy", "error sizes", "error radii",
            "error x", "recipe", "styles", "lammps", "machine", "date"]
-REACHED = re.compile(r"^reached (?P<until>\S+) rest \S+ bubbles (?P<N>\d+) radius (?P<R>\S+) "
-                     r"square \S+ energy (?P<energy>\S+) evaluations (?P<evaluations>\S+) "
-                     r"rejected (?P<rejected>\S+) steps (?P<steps>\S+)", re.M)
-LOOP = re.compile(r"^Loop time of (\S+)|^([\d.]+)% CPU use", re.M)
-
-
-def say(text):
-    print(text, file=sys.stderr, flush=True)
-
 
 def digest(paths):
-    return hashlib.sha256(b"".join(path.read_bytes() for path in paths)).hexdigest()[:8]
-
-
-def loop_seconds(text):
-    """Seconds of wall clock and processor in the loops of all runs in a piece of output."""
-    wall = cpu = last = 0.0
-    for loop, share in LOOP.findall(text):
-        if loop:
-            last = float(loop)
-            wall += last
-            cpu += last
-        else:
-            cpu += last * (float(share) / 100.0 - 1.0)
-    return wall, cpu
+    """Short name of what these scripts and sources do: comments do not count."""
+    lines = [re.sub(r"(^|\s+)(#|//).*", "", line)
+             for path in paths for line in path.read_text().splitlines()]
+    return hashlib.sha256("\n".join(filter(str.strip, lines)).encode()).hexdigest()[:8]
 
 
 class Campaign:
@@ -267,12 +189,13 @@ class Campaign:
         return [row for row in self.rows if row["scene"] == scene and
                 row["bubbles"] == str(bubbles) and row["curve"] == run.curve and
                 row["value"] == run.value and row["precision"] == run.precision and
-                row["step"] == run.step and row["recipe"] == self.recipe(scene)]
+                row["step"] == run.step and row["recipe"] == self.recipe(scene) and
+                (row["styles"] == self.styles or not named(run, self.args.again))]
 
     def measure(self, name, bubbles, run):
         scene = SCENES[name]
         variables = {**scene.variables(), "file": self.start(name, bubbles), "step": run.step,
-                     "look": 25 if bubbles > 20000 else 1, **run.variables}
+                     "look": 25 if bubbles > LARGE else 1, **run.variables}
         try:
             text = self.lammps(run.precision, "tradeoff/in.run", variables)
         except Failed:
@@ -322,7 +245,7 @@ class Campaign:
     def jobs(self):
         for bubbles in self.args.bubbles:
             for name in self.args.scene:
-                runs = [reference(bubbles), *methods(self.known), *chaos(bubbles)]
+                runs = [reference(name, bubbles), *methods(self.known), *chaos(bubbles)]
                 if self.args.knobs and bubbles <= self.args.knobs:
                     runs += knobs(self.known, SCENES[name])
                     runs += [Run("precision", precision, step, precision=precision)
@@ -333,8 +256,8 @@ class Campaign:
                         yield name, bubbles, run
 
     def wanted(self, run):
-        return not run.against or run.curve == "chaos" or not self.args.curve or any(
-            run.curve.startswith(curve) for curve in self.args.curve)
+        return not run.against or run.curve == "chaos" or not self.args.curve or \
+            named(run, self.args.curve)
 
     def missing(self, scene, bubbles, run):
         have = self.have(scene, bubbles, run)
@@ -368,6 +291,10 @@ class Campaign:
             done += heavy
 
 
+def named(run, curves):
+    return any(run.name.startswith(curve) for curve in curves)
+
+
 def weight(scene, bubbles, run):
     """What a run may cost, in some unit."""
     tol = float(re.search(r"foam/\S+ (\S+)", run.step)[1])
@@ -398,7 +325,6 @@ def append(path, rows):
 # ---- the command --------------------------------------------------------------------------------
 
 def arguments():
-    from run import choice_list, number_list    # the same words as in the other benchmark
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0], epilog=__doc__.split(
         "\n\n", 2)[2], formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--lmp", default="lmp", metavar="COMMAND",
@@ -413,9 +339,15 @@ def arguments():
     parser.add_argument("--scene", type=choice_list(*SCENES), metavar="S,...",
                         help=f"{','.join(SCENES)} ({','.join(QUICK)})")
     parser.add_argument("--curve", type=lambda text: text.split(","), metavar="C,...",
-                        help="only methods and knobs whose names begin like this, say abm,'rkc rms'")
+                        help="only runs whose names begin like this, say abm,'rkc rms 1e-3'")
+    parser.add_argument("--again", type=lambda text: text.split(","), metavar="C,...", default=[],
+                        help="measure these again, if the sources of the styles have changed since")
     parser.add_argument("--knobs", type=float, metavar="N", default=0,
                         help="also single settings, up to so many bubbles (--full: 10^4)")
+    parser.add_argument("--models", action="store_true",
+                        help="instead: what each term of the model costs, and does")
+    parser.add_argument("--repeat", type=int, default=3,
+                        help="for --models: the fastest of so many (%(default)s)")
     parser.add_argument("--limit", type=float, metavar="SECONDS",
                         help="start nothing new after this time")
     parser.add_argument("--draw", action="store_true", help="run nothing, draw what there is")
@@ -438,10 +370,24 @@ def arguments():
     return args
 
 
+def show(text, path):
+    path.write_text(text + "\n")
+    print(text)
+
+
+def measure_models(args):
+    import models
+    rows = models.Models(Campaign(args)).run()
+    models.write(rows, args.out / "models.csv")
+    show(models.table(rows), args.out / "models.txt")
+
+
 def main():
     args = arguments()
     for directory in (args.out, args.cache):
         directory.mkdir(parents=True, exist_ok=True)
+    if args.models:
+        return measure_models(args)
     if not args.draw:
         campaign = Campaign(args)
         campaign.run()
@@ -451,9 +397,8 @@ def main():
     if not rows:
         raise SystemExit("nothing was measured")
     import frontier
-    text = frontier.tables(rows)
-    (args.out / "tradeoff.txt").write_text(text + "\n")
-    print(text)
+    (args.out / "recommended.txt").write_text(frontier.recommended(rows) + "\n")
+    show(frontier.tables(rows), args.out / "tradeoff.txt")
     try:
         frontier.draw(rows, args.out)
     except ImportError:

@@ -20,6 +20,7 @@
 #include "force.h"
 #include "memory.h"
 #include "modify.h"
+#include "neigh_list.h"
 #include "update.h"
 
 #include <cstring>
@@ -63,15 +64,34 @@ ComputeFoamBubble::~ComputeFoamBubble()
 
 void ComputeFoamBubble::init()
 {
-  pair = dynamic_cast<PairDurianFoam *>(force->pair_match("durian/foam", 0));
-  if (!pair) error->all(FLERR, "Compute foam/bubble needs pair_style durian/foam");
+  find_foam();
   if (pair->kokkosable != kokkosable || (kokkosable && pair->execution_space != execution_space))
     error->all(FLERR,
                "Compute foam/bubble and pair style durian/foam must run in the same place: use the "
                "suffix kk for all styles of the foam or for none");
+}
+
+void ComputeFoamBubble::find_foam()
+{
+  pair = dynamic_cast<PairDurianFoam *>(force->pair_match("durian/foam", 0));
+  if (!pair) error->all(FLERR, "Compute foam/bubble needs one pair_style durian/foam");
   gas = nullptr;
   for (auto &ifix : modify->get_fix_list())
-    if (auto *found = dynamic_cast<FixFoamCoarsen *>(ifix)) gas = found;
+    if (auto *found = dynamic_cast<FixFoamCoarsen *>(ifix); found && found->ready()) gas = found;
+}
+
+// Between runs commands may have replaced styles, or put bubbles in or taken them out
+
+void ComputeFoamBubble::gather()
+{
+  find_foam();
+  int outdated = !pair->list || pair->list->inum != atom->nlocal, any;
+  MPI_Allreduce(&outdated, &any, 1, MPI_INT, MPI_MAX, world);
+  if (any)
+    error->all(FLERR,
+               "Compute foam/bubble: the neighbor list is that of another foam: use run 0 after "
+               "commands that change the pair style or the number of bubbles");
+  pair->gather();
 }
 
 void ComputeFoamBubble::compute_peratom()
@@ -92,7 +112,7 @@ void ComputeFoamBubble::compute_peratom()
 
   // the sums of the pair style may be those of another state, or fewer: gather them all
 
-  pair->gather();
+  gather();
   FoamHost here(lmp);
   look(here, Foam::Values<int>{atom->mask}, wanted.count == 1 ? vector : array[0]);
 }

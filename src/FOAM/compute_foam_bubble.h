@@ -43,6 +43,9 @@ class ComputeFoamBubble : public Compute {
   double *vector;
   double **array;
 
+  void find_foam();
+  void gather();    // the sums of the pair style, of the present state
+
   // fills out[nlocal][wanted.count] from what the pair style has gathered
 
   template <class Space, class Masks> void look(Space &here, const Masks &mask, double *out)

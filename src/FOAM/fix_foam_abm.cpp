@@ -15,14 +15,15 @@ using namespace LAMMPS_NS;
 
 FixFoamABM::FixFoamABM(LAMMPS *lmp, int narg, char **arg) : FixFoamIntegrate(lmp, narg, arg)
 {
-  settings(narg, arg, {{"scheme", [&](const std::string &value) {
-                          control.scheme = second_of("scheme", value, "standard", "source")
+  settings(narg, arg, {{"scheme", [&](const FoamInput::Value &v) {
+                          control.scheme = v.one_of({"standard", "source"}) == 1
                               ? Foam::Scheme::SOURCE
                               : Foam::Scheme::STANDARD;
                         }}});
   if (drift_removed && control.scheme == Foam::Scheme::SOURCE)
     error->all(FLERR, "Fix {}: drift remove goes with scheme standard, not with scheme source",
                style);
+  add_callbacks();
 }
 
 FoamTotals FixFoamABM::attempt(double step, bool first)

@@ -39,6 +39,7 @@ FixFoamCoarsen::FixFoamCoarsen(LAMMPS *lmp, int narg, char **arg)
   kappa = input.argument("kappa").number(FoamInput::AT_LEAST, 0.0);
   input.keywords(
       {{"rmin", [&](const Value &v) { rmin = v.number(FoamInput::AT_LEAST, 0.0); }},
+       {"film", [&](const Value &v) { through_films = v.one_of({"no", "yes"}); }},
        {"liquid",
         [&](const Value &v) {
           law = v.one_of({"area", "lsw"}) == 1 ? Foam::LiquidLaw::LSW : Foam::LiquidLaw::AREA;
@@ -61,7 +62,7 @@ int FixFoamCoarsen::setmask()
 void FixFoamCoarsen::init()
 {
   pair = dynamic_cast<PairDurianFoam *>(force->pair_match("durian/foam", 0));
-  if (!pair) error->all(FLERR, "Fix foam/coarsen needs pair_style durian/foam");
+  if (!pair) error->all(FLERR, "Fix foam/coarsen needs one pair_style durian/foam");
   if (modify->get_fix_by_style("^foam/coarsen").size() > 1)
     error->all(FLERR, "Fix foam/coarsen: only one fix of this style can be used at a time");
   bool integrated = false;
@@ -75,7 +76,7 @@ void FixFoamCoarsen::init()
 unsigned FixFoamCoarsen::wanted() const
 {
   unsigned what = 0;
-  if (K > 0.0) what |= Foam::FILM;
+  if (K > 0.0 && through_films) what |= Foam::FILM;
   if (K > 0.0 && kappa > 0.0) what |= Foam::AREA;
   return what;
 }

@@ -45,6 +45,7 @@ class FixFoamCoarsen : public Fix {
   };
   Population population;
 
+  bool ready() const { return pair; }    // since its first run
   unsigned wanted() const;    // what the pair style has to gather for it
   Foam::LiquidLaw liquid_law() const { return law; }
 
@@ -59,7 +60,7 @@ class FixFoamCoarsen : public Fix {
     gas.law = law;
     gas.Rin = pair->rin;
     gas.Ain = ain_given > 0.0 ? ain_given : pair->ain;
-    gas.film = here.column(pair->film, 0);
+    if (through_films) gas.film = here.column(pair->film, 0);
     gas.area = here.column(pair->area, 0);
     using Body = Foam::LiquidSums<D, typename Space::Bubbles>;
     if (gas.through_liquid())
@@ -84,6 +85,7 @@ class FixFoamCoarsen : public Fix {
   std::string end_reached() const;    // why the run is over, or empty
 
   double K, kappa;
+  bool through_films = true;
   bool has_dead() const { return dead; }
 
  protected:

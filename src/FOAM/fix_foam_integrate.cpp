@@ -9,8 +9,6 @@
 
 #include "fix_foam_integrate.h"
 
-#include "foam_input.h"
-
 #include "atom.h"
 #include "comm.h"
 #include "domain.h"
@@ -59,67 +57,59 @@ FixFoamIntegrate::FixFoamIntegrate(LAMMPS *lmp, int narg, char **arg)
   create_attribute = 1;
   maxexchange = maxsize_restart() - 1;
   columns.use(atom->nmax);
+}
+
+void FixFoamIntegrate::settings(int narg, char **arg, const FoamInput::Keywords &own)
+{
+  using Value = FoamInput::Value;
+  FoamInput input(error, fmt::format("Fix {}", style), narg - 3, arg + 3);
+  control.tolerance = input.argument("tolerance").number(FoamInput::ABOVE, 0.0);
+
+  FoamInput::Keywords all{
+      {"dt0", [&](const Value &v) { dt_start = v.number(FoamInput::ABOVE, 0.0); }},
+      {"dtmax", [&](const Value &v) { dt_limit = v.number(FoamInput::ABOVE, 0.0); }},
+      {"variable",
+       [&](const Value &v) {
+         variable = v.one_of({"volume", "radius"}) == 1 ? Foam::Variable::RADIUS
+                                                        : Foam::Variable::VOLUME;
+       }},
+      {"norm",
+       [&](const Value &v) {
+         norm = v.one_of({"max", "rms"}) == 1 ? Foam::Norm::RMS : Foam::Norm::MAX;
+       }},
+      {"drift", [&](const Value &v) { drift_removed = v.one_of({"keep", "remove"}) == 1; }}};
+  all.insert(all.end(), own.begin(), own.end());
+  input.keywords(all);
+}
+
+// The last that a constructor does: a constructor that ends in an error has no callbacks to take back,
+// and LAMMPS, asked to, would end the program.
+
+void FixFoamIntegrate::add_callbacks()
+{
   atom->add_callback(Atom::GROW);
   atom->add_callback(Atom::RESTART);
-}
-
-bool FixFoamIntegrate::second_of(const std::string &keyword, const std::string &value,
-                                 const char *first, const char *second) const
-{
-  if (value != first && value != second)
-    error->all(FLERR, "Fix {}: {} must be {} or {}, not {}", style, keyword, first, second, value);
-  return value == second;
-}
-
-void FixFoamIntegrate::settings(int narg, char **arg, const Keywords &own)
-{
-  if (narg < 4) error->all(FLERR, "Fix {} needs the tolerance as first argument", style);
-  const FoamInput input(lmp, error, fmt::format("Fix {}", style));
-  control.tolerance = input.number("tolerance", arg[3], FoamInput::ABOVE, 0.0);
-
-  std::string keywords = "dt0, dtmax, variable, norm, drift";
-  for (const auto &one : own) keywords += ", " + one.first;
-  for (int iarg = 4; iarg < narg; iarg += 2) {
-    const std::string keyword = arg[iarg];
-    if (iarg + 2 > narg)
-      error->all(FLERR, "Fix {}: keyword {} needs a value (keywords are {})", style, keyword,
-                 keywords);
-    const std::string value = arg[iarg + 1];
-    const auto mine = own.find(keyword);
-    if (keyword == "dt0")
-      dt_start = input.number("dt0", value, FoamInput::ABOVE, 0.0);
-    else if (keyword == "dtmax")
-      dt_limit = input.number("dtmax", value, FoamInput::ABOVE, 0.0);
-    else if (keyword == "variable")
-      variable = second_of(keyword, value, "volume", "radius") ? Foam::Variable::RADIUS
-                                                               : Foam::Variable::VOLUME;
-    else if (keyword == "norm")
-      norm = second_of(keyword, value, "max", "rms") ? Foam::Norm::RMS : Foam::Norm::MAX;
-    else if (keyword == "drift")
-      drift_removed = second_of(keyword, value, "keep", "remove");
-    else if (mine != own.end())
-      mine->second(value);
-    else
-      error->all(FLERR, "Fix {}: unknown keyword {} (allowed are {})", style, keyword, keywords);
-  }
+  called_back = true;
 }
 
 FixFoamIntegrate::~FixFoamIntegrate()
 {
+  if (!called_back) return;
   atom->delete_callback(id, Atom::GROW);
   atom->delete_callback(id, Atom::RESTART);
 }
 
 int FixFoamIntegrate::setmask()
 {
-  return INITIAL_INTEGRATE | PRE_EXCHANGE | POST_NEIGHBOR | FINAL_INTEGRATE | END_OF_STEP;
+  return INITIAL_INTEGRATE | PRE_EXCHANGE | PRE_NEIGHBOR | POST_NEIGHBOR | FINAL_INTEGRATE |
+      END_OF_STEP;
 }
 
 void FixFoamIntegrate::init()
 {
   dim = domain->dimension;
   pair = dynamic_cast<PairDurianFoam *>(force->pair_match("durian/foam", 0));
-  if (!pair) error->all(FLERR, "Fix {} needs pair_style durian/foam", style);
+  if (!pair) error->all(FLERR, "Fix {} needs one pair_style durian/foam", style);
   if (force->bond || force->angle || force->dihedral || force->improper || force->kspace)
     error->all(FLERR,
                "Fix {} evaluates pair forces and fixes only: "
@@ -144,12 +134,13 @@ void FixFoamIntegrate::init()
                  "Fix {} repeats steps until their error is small, which random forces of "
                  "fix {} never let it be",
                  style, ifix->style);
-    if (comm->me == 0 && utils::strmatch(ifix->style, "^deform"))
+    if (comm->me == 0 && utils::strmatch(ifix->style, "^deform") && !deform_told)
       error->warning(FLERR,
                      "Fix {} changes the timestep, and fix deform takes the strain of styles "
                      "vel, erate, trate and wiggle for steps times the present timestep: "
                      "use its style variable, with the time of fix {}",
                      style, style);
+    deform_told = deform_told || utils::strmatch(ifix->style, "^deform");
   }
 
   // styles of a device hold their numbers there
@@ -200,6 +191,38 @@ bool FixFoamIntegrate::lagged() const
 void FixFoamIntegrate::setup_pre_exchange()
 {
   check_bubbles();
+  places.clear();
+  if (domain->triclinic)
+    for (int i = 0; i < atom->nlocal; i++)
+      places[atom->tag[i]] = {atom->x[i][0], atom->x[i][1], atom->x[i][2]};
+}
+
+// A list build in a triclinic box takes places to box coordinates and back, which rounds them: in
+// the set-up of a run once more than in a run that goes on.  So there they are put back, and ghosts
+// have theirs from their owners in both.
+
+void FixFoamIntegrate::setup_pre_neighbor()
+{
+  if (!domain->triclinic) return;
+  host_reads();
+  const double tiny = 1.0e-12 * (domain->xprd + domain->yprd + domain->zprd);
+  for (int i = 0; i < atom->nlocal; i++) {
+    const auto known = places.find(atom->tag[i]);
+    if (known == places.end()) continue;
+    double *const x = atom->x[i];
+    const auto &before = known->second;
+    bool same = true;    // not an image
+    for (int k = 0; k < 3; k++) same = same && std::fabs(x[k] - before[k]) < tiny;
+    if (same) std::copy_n(before.begin(), 3, x);
+  }
+  places.clear();
+  host_wrote();
+  comm->forward_comm();
+}
+
+void FixFoamIntegrate::pre_neighbor()
+{
+  if (domain->triclinic && update->ntimestep == output->next_restart) comm->forward_comm();
 }
 
 void FixFoamIntegrate::check_bubbles()
@@ -299,7 +322,8 @@ void FixFoamIntegrate::setup(int)
   constexpr double SAME = 1.0e-6;    // well above rounding, well below any change of interest
   double v_same = SAME * change.max[1], qdot_same = SAME * change.max[3];
   if (!evaluates_again()) {
-    const double tolerance = 10.0 * control.tolerance;
+    double tolerance = 10.0 * control.tolerance;
+    if (norm == Foam::Norm::RMS) tolerance *= std::sqrt(double(dim + 1) * atom->natoms);    // of one bubble
     v_same += pair->neighbor_drag ? INFINITY : tolerance * pair->rin / natural_time();
     qdot_same += std::sqrt(tolerance) * change.max[3];    // contact area ~ sqrt(overlap)
   }
@@ -322,6 +346,9 @@ void FixFoamIntegrate::setup(int)
   rin_kept = pair->rin;
   ain_kept = pair->ain;
   if (h == 0.0) h = dt_start > 0.0 ? dt_start : update->dt;
+  if (!(h > 0.0))
+    error->all(FLERR, "Fix {}: the first step must be > 0, not {}: see keyword dt0 and the "
+               "timestep command", style, h);
   update->update_time();
   set_timestep(MIN(h, largest_step()));
 
@@ -405,7 +432,13 @@ void FixFoamIntegrate::initial_integrate(int)
 
   while (true) {
     const double step = MIN(h, largest_step());
-    if (step < 1.0e-12 * natural_time() || time + step == time)
+    const bool too_short = step < 1.0e-12 * natural_time() || time + step == time;
+    if (too_short && !refused)
+      error->all(FLERR,
+                 "Fix {}: the step of {} at step {}, t = {}, is too short: raise dt0, dtmax or the "
+                 "timestep command",
+                 style, step, update->ntimestep, time);
+    if (too_short)
       error->all(FLERR,
                  "Fix {}: the step fell to {} at step {}, t = {}, with error {} above the "
                  "tolerance {}: look for bad forces, raise the tolerance or lower dt0",

@@ -13,9 +13,9 @@
 #include "fix.h"
 #include "fix_foam_coarsen.h"
 #include "foam_host.h"
+#include "foam_input.h"
 
 #include <array>
-#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -42,10 +42,12 @@ class FixFoamIntegrate : public Fix {
   int setmask() override;
   void init() override;
   void setup_pre_exchange() override;
+  void setup_pre_neighbor() override;
   void setup_post_neighbor() override;
   void setup(int) override;
   void initial_integrate(int) override;
   void pre_exchange() override;
+  void pre_neighbor() override;
   void post_neighbor() override;
   void final_integrate() override;
   void end_of_step() override;
@@ -73,10 +75,9 @@ class FixFoamIntegrate : public Fix {
 
   // settings, from the command: keywords of all schemes, and own ones with what to do with a value
 
-  using Keywords = std::map<std::string, std::function<void(const std::string &)>>;
-  void settings(int, char **, const Keywords &own);
-  bool second_of(const std::string &keyword, const std::string &value, const char *first,
-                 const char *second) const;
+  void settings(int, char **, const FoamInput::Keywords &own);
+  void add_callbacks();
+  bool called_back = false;
 
   Foam::StepControl control;
   Foam::Variable variable = Foam::Variable::VOLUME;
@@ -201,9 +202,12 @@ class FixFoamIntegrate : public Fix {
   bool ghosts_checked = false;    // their radii are communicated
   bool lags_given = false;        // to LAMMPS' own evaluation before a run
   bool stopping = false;          // the run has reached its end
+  bool deform_told = false;       // what its styles make of changing steps
   bigint dump_foreseen = -1;      // step for which energies of bubbles were asked for in time
   int delay_given = -1;           // neigh_modify delay, which does not count during a run
   FoamTotals totals;              // of a candidate, over all ranks
+
+  std::map<tagint, std::array<double, 3>> places;    // of a triclinic box, before set-up
 
   void check_bubbles();
   void check_ghosts();

@@ -9,32 +9,22 @@
 
 #include "fix_foam_rkc.h"
 
-#include "foam_input.h"
-
-#include "error.h"
-
 using namespace LAMMPS_NS;
 
 FixFoamRKC::FixFoamRKC(LAMMPS *lmp, int narg, char **arg) : FixFoamIntegrate(lmp, narg, arg)
 {
   norm = Foam::Norm::RMS;
-  const FoamInput input(lmp, error, fmt::format("Fix {}", style));
+  using Foam::Chebyshev;
+  using Value = FoamInput::Value;
   settings(narg, arg,
            {{"stages",
-             [&](const std::string &value) {
-               using Foam::Chebyshev;
-               if (value == "auto") return;
-               const bigint n = utils::is_integer(value) ? utils::bnumeric(FLERR, value, false, lmp)
-                                                         : 0;
-               if (n < Chebyshev::FEWEST || n > Chebyshev::MOST)
-                 error->all(FLERR, "Fix {}: stages must be auto or an integer from {} to {}, not {}",
-                            style, int(Chebyshev::FEWEST), int(Chebyshev::MOST), value);
-               stages_given = static_cast<int>(n);
+             [&](const Value &v) {
+               stages_given = v.is("auto") ? 0 : v.integer(Chebyshev::FEWEST, Chebyshev::MOST);
              }},
-            {"spectral", [&](const std::string &value) {
-               if (value != "auto")
-                 radius_given = input.number("spectral", value, FoamInput::ABOVE, 0.0);
+            {"spectral", [&](const Value &v) {
+               radius_given = v.is("auto") ? 0.0 : v.number(FoamInput::ABOVE, 0.0);
              }}});
+  add_callbacks();
   size_vector = 8;
 }
 

@@ -19,6 +19,7 @@ FixStyle(foam/rkc,FixFoamRKC);
 #include "fix_foam_integrate.h"
 
 #include "atom.h"
+#include "domain.h"
 
 #include <algorithm>
 #include <cmath>
@@ -60,8 +61,8 @@ class FixFoamRKC : public FixFoamIntegrate {
   static constexpr double MARGIN = 1.1;
   static constexpr int STEPS = 25, FEW = 10;    // between estimates; if one was rejected
   static constexpr int ITERATIONS = 50;         // of an estimate
-  static constexpr double ENOUGH = 0.02;               // relative change of the last iteration
-  static constexpr double ASIDE = 1.0e-6;              // how far, in <R_in>
+  static constexpr double ENOUGH = 0.02;        // relative change of the last iteration
+  double aside = 1.0e-6;    // step aside of the bubble that moves most, in <R_in>: see FixFoamRKCKokkos
 
   double spectral_radius() const { return radius_given > 0.0 ? radius_given : MARGIN * radius; }
   bool estimate_due() const
@@ -88,7 +89,9 @@ FoamTotals FixFoamRKC::attempt_in(Space &here, double step, bool first)
   using B = typename Space::Bubbles;
   const int nlocal = atom->nlocal;
 
-  if (first && lagged()) {
+  // F_0 is known from the last step, unless the box has taken the bubbles along since
+
+  if (first && domain->box_change) {
     here.for_each(nlocal, KeepStart<D, B>{state(here)});
     first = false;
     evaluate();
@@ -130,11 +133,20 @@ template <int D, class Space> void FixFoamRKC::estimate_in(Space &here)
   if (!(direction_size > 0.0) || !std::isfinite(direction_size))
     take(here.totals(nlocal, AnyDirection<D, B>{{state(here), q_unit}}));
 
+  Stages y{};
+  if (lagged()) {    // l is not that of the last step
+    y = stages(here);
+    here.for_each(nlocal, StepAside<D, B>{state(here), 0.0});
+    evaluate();
+    here.for_each(nlocal, KeepVelocities<D, B>{rates<D>(here), {y.x_before[0], y.x_before[1],
+                                                                y.x_before[2]}});
+  }
   for (int n = 0; n < ITERATIONS && direction_most > 0.0; n++) {
-    const double before = radius, amount = ASIDE * Rin / direction_most;
+    const double before = radius, amount = aside * Rin / direction_most;
     here.for_each(nlocal, StepAside<D, B>{state(here), amount});
     evaluate();
     take(here.totals(nlocal, TakeDirection<D, B>{{state(here), q_unit}, rates<D>(here),
+                                                 {y.x_before[0], y.x_before[1], y.x_before[2]},
                                                  amount * direction_size}));
     radius = direction_size;
     if (std::fabs(radius - before) <= ENOUGH * radius) break;

@@ -29,6 +29,12 @@ template <class Run> bool for_each_gathered(unsigned what, Run &&run)
     case FORCE | DRAG:
       run.template operator()<FORCE | DRAG>();
       return true;
+    case FORCE | AREA:
+      run.template operator()<FORCE | AREA>();
+      return true;
+    case FORCE | AREA | DRAG:
+      run.template operator()<FORCE | AREA | DRAG>();
+      return true;
     case FORCE | FILM:
       run.template operator()<FORCE | FILM>();
       return true;
@@ -121,11 +127,11 @@ template <int D, unsigned WHAT, bool ASSIGN, class B, class List, class Tally> s
       if constexpr (WHAT & CONTACTS) contacts_i += 1.0;
       if constexpr (WHAT & VSUM)
         for (int k = 0; k < D; k++) vsum_i[k] += b.v(j, k);
+      if constexpr (WHAT & (FILM | AREA)) A = contact_area<D>(r, Ri, Rj);
+      if constexpr (WHAT & AREA) area_i += A;
       if constexpr (WHAT & FILM) {
-        A = contact_area<D>(r, Ri, Rj);
         exchange = film_exchange(A, Ri, Rj);
         film_i += exchange;
-        if constexpr (WHAT & AREA) area_i += A;
       }
       if constexpr (WHAT & ENERGY) {
         half_spring = 0.5 * spring_energy(sigma * Rin, overlap, Rsum);

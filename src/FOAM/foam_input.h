@@ -158,18 +158,6 @@ class FoamInput {
   {
   }
 
-  // of words that are taken one by one elsewhere
-
-  FoamInput(class LAMMPS *, Error *error, const std::string &style)
-      : FoamInput(error, style, 0, nullptr)
-  {
-  }
-  double number(const std::string &name, const std::string &text, Compare compare,
-                double limit) const
-  {
-    return Value(error, style, name, text.c_str(), false).number(compare, limit);
-  }
-
   Value argument(const std::string &name) { return {error, style, name, next(), false}; }
 
   // all that is left: pairs of a keyword and its value; the last counts

@@ -298,19 +298,39 @@ void PairDurianFoam::init_style()
   if (!ain_fixed) ain = all[0] > 0.0 ? all[2] / all[0] : 0.0;
   MPI_Allreduce(&largest, &cutoff_radius, 1, MPI_DOUBLE, MPI_MAX, world);
   largest = cutoff_radius;
-  cutoff_radius *= headroom;
 
-  // tiled communication reaches no further than the box: there the head-room shrinks with it
+  // Coarsening ends when a bubble is as wide as the box: head-room beyond that would only mean more
+  // ghosts.  Tiled communication reaches no further than the box, skin included.
 
-  if (comm->style == Comm::TILED) {
-    double side = INFINITY;
-    for (int k = 0; k < domain->dimension; k++)
-      if (domain->periodicity[k]) side = MIN(side, domain->prd[k]);
-    cutoff_radius = MAX(largest, MIN(cutoff_radius, 0.5 * (side - neighbor->skin)));
-  }
+  double side = INFINITY;
+  for (int k = 0; k < domain->dimension; k++) side = MIN(side, domain->prd[k]);
+  if (comm->style == Comm::TILED) side -= neighbor->skin;
+  cutoff_radius = MAX(largest, MIN(headroom * largest, 0.5 * side));
+  check_images(largest);
 
   if (domain->dimension == 2) fit_thickness();
   neighbor->add_request(this, list_flags);
+}
+
+// LAMMPS keeps each image of a bubble that others can touch, and sorts bubbles into bins half a cutoff
+// wide, which may be a hundred times as wide as the box.  Radii in the wrong units ask for more, and
+// what fails then does not tell why.
+
+void PairDurianFoam::check_images(double largest)
+{
+  if (!std::isfinite(largest)) return;    // the integrator tells which it is
+  double images = double(atom->natoms), side = INFINITY;
+  for (int k = 0; k < domain->dimension; k++) {
+    if (domain->periodicity[k]) images *= 1.0 + 4.0 * largest / domain->prd[k];
+    if (domain->periodicity[k] || neighbor->style) side = MIN(side, domain->prd[k]);
+  }
+  constexpr double WIDEST = 100.0;
+  if (images > MAXSMALLINT || 2.0 * largest > WIDEST * side)
+    error->all(FLERR,
+               "Pair style durian/foam: the largest bubble, of radius {:.8}, is too large for a box "
+               "whose shortest side is {:.8} ({:.3} images are within reach): radii must be in the "
+               "units of the box, and below {:.8}",
+               largest, side, images, 0.5 * WIDEST * side);
 }
 
 // In 2D the box has a thickness that means nothing, except that LAMMPS refuses to sort bubbles into

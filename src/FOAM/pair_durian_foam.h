@@ -89,6 +89,7 @@ class PairDurianFoam : public Pair {
   unsigned gathered;            // what is sent in reverse communication
 
   void allocate();
+  void check_images(double largest);
   void fit_thickness();
   void gather(unsigned);
   virtual void gather_contacts(unsigned);    // the loop itself

@@ -49,7 +49,7 @@ template <class DeviceType> void ComputeFoamBubbleKokkos<DeviceType>::compute_pe
     array_atom = array;
   }
 
-  pair->gather();
+  gather();
   const auto mask = atomKK->k_mask.view<DeviceType>();
   atomKK->sync(execution_space, MASK_MASK);
   look(here, mask, one ? k_vector.view<DeviceType>().data() : k_array.view<DeviceType>().data());

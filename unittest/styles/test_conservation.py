@@ -47,7 +47,8 @@ def gas_of(frame, dim):
 EACH_STEP, IN_ALL = 1e-14, 1e-12
 
 
-@pytest.mark.parametrize("gas", ["0.1 liquid area", "0.1 liquid lsw", "0.0"])
+@pytest.mark.parametrize("gas", ["0.1 liquid area", "0.1 liquid lsw", "0.0",
+                                 "0.3 film no"])
 @pytest.mark.parametrize("dim", [2, 3])
 def test_gas_and_bubbles_are_conserved(each_lmp, dim, gas):
     R, thermo, frames = coarsen(each_lmp, dim, gas)
