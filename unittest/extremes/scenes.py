@@ -7,7 +7,7 @@ import os
 import numpy as np
 import pytest
 
-from conftest import PRECISE, data_file
+from conftest import BACKENDS as ALL_BACKENDS, PLAIN, PRECISE, data_file
 
 # integrators by name: the line of the fix, with the tolerance left open
 INTEGRATORS = {
@@ -19,17 +19,24 @@ INTEGRATORS = {
 FULL = os.environ.get("FOAM_EXTREMES") == "full"
 
 
+# back ends: those that there are, or those named
+BACKENDS = [name for name in PLAIN if os.environ.get(ALL_BACKENDS[name].variable)] or PLAIN[:1]
+if os.environ.get("FOAM_EXTREME_BACKENDS"):
+    BACKENDS = os.environ["FOAM_EXTREME_BACKENDS"].split(",")
+
+
 def cases(names, *lists):
-    """Parametrize by all combinations of the values in lists; in the short form by a few of them,
-    in which each value occurs."""
+    """Parametrize by all combinations of the values in lists and of the back ends, as fixture lmp;
+    in the short form by a few of them, in which each value occurs."""
+    lists = [list(values) for values in (*lists, BACKENDS)]
     rows = list(itertools.product(*lists))
     if not FULL:
         random = np.random.default_rng(1)
         longest = max(map(len, lists))
         turns = [random.permutation(longest) % len(values) for values in lists]
         turns[np.argmax([len(values) for values in lists])] = range(longest)
-        rows = [tuple(list(values)[t] for values, t in zip(lists, turn)) for turn in zip(*turns)]
-    return pytest.mark.parametrize(names, rows)
+        rows = [tuple(values[t] for values, t in zip(lists, turn)) for turn in zip(*turns)]
+    return pytest.mark.parametrize(f"{names}, lmp", rows, indirect=["lmp"])
 
 
 # A step changes the sum of gas by the rounding of some hundred terms, 1e-15, in either direction;
