@@ -18,7 +18,6 @@ INTEGRATORS = {
 
 FULL = os.environ.get("FOAM_EXTREMES") == "full"
 
-
 # back ends: those that there are, or those named
 BACKENDS = [name for name in PLAIN if os.environ.get(ALL_BACKENDS[name].variable)] or PLAIN[:1]
 if os.environ.get("FOAM_EXTREME_BACKENDS"):
@@ -66,6 +65,7 @@ class Scene:
     kappa: float = 0.1
     gas: str = ""                  # more keywords of fix foam/coarsen
     rmin: float = 0.1
+    gas_first: bool = False        # of the two fixes
     gas_limit: float = GAS         # for variable radius and scheme source
     mu0: float = 1.0
     sigma0: float = 1.0
@@ -98,12 +98,11 @@ class Scene:
 
     def fixes(self):
         dtmax = f"dtmax {self.dtmax:.17g}" if self.dtmax else ""
-        lines = [f"timestep {self.dt0:.17g}",
-                 f"fix step all {INTEGRATORS[self.integrator].format(tol=self.tol)} {dtmax} {self.step}"]
+        lines = [f"fix step all {INTEGRATORS[self.integrator].format(tol=self.tol)} {dtmax} {self.step}"]
         if self.K is not None:
             lines += [f"fix gas all foam/coarsen {self.K:.17g} {self.kappa:.17g} "
                       f"rmin {self.rmin:.17g} {self.gas}"]
-        return "\n".join(lines)
+        return "\n".join([f"timestep {self.dt0:.17g}"] + lines[::-1 if self.gas_first else 1])
 
     def output(self):
         gas = "" if self.K is None else "f_gas[*]"
@@ -147,7 +146,8 @@ pair_coeff    * * {self.sigma0:.17g}
 
     def continued(self, name, run):
         """Input of a run that goes on from the restart file `name`."""
-        return self.begin() + f"read_restart {name} noremap\n" + self.go_on(run, name="last2").replace("dump id", "dump2 id")
+        text = self.begin() + f"read_restart {name} noremap\n" + self.go_on(run, name="last2")
+        return text.replace("dump id", "dump2 id")
 
     def files(self):
         data = data_file(self.box, self.x, self.R)

@@ -189,6 +189,16 @@ def test_not_periodic(lmp, dim, boundary, integrator):
         assert f[column] == pytest.approx(g[column], rel=1e-9), column
 
 
+def test_box_without_width(base_lmp):
+    """One bubble in a box that shrinks around it: a clear stop, that names the way out."""
+    alone = Scene([[5.0, 5.0]], [1.0], [10.0, 10.0], boundary="s s p", K=None)
+    result = alone(base_lmp, check=False, timeout=30)
+    assert result.returncode > 0
+    assert "boundary m" in result.errors[0] and "nsq" in result.errors[0]
+    for way_out in alone.but(boundary="m m p"), alone.but(neighbor="nsq"):
+        assert np.array_equal(last(way_out(base_lmp)).array("x", "y"), alone.x)
+
+
 def test_lost(base_lmp):
     """Out of a fixed box: LAMMPS says so."""
     scene = Scene([[9.5, 5.0], [9.0, 5.0], [3.0, 3.0]], [1.0, 1.0, 1.2], [10.0, 10.0],
