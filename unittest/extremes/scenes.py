@@ -7,38 +7,40 @@ import os
 import numpy as np
 import pytest
 
-from conftest import PRECISE, data_file
+from conftest import BACKENDS as ALL_BACKENDS, PLAIN, PRECISE, data_file
 
 # integrators by name: the line of the fix, with the tolerance left open
 INTEGRATORS = {
     "abm max": "foam/abm {tol:g} norm max",
     "abm rms": "foam/abm {tol:g} norm rms",
+    "rkc": "foam/rkc {tol:g}",
 }
 
 FULL = os.environ.get("FOAM_EXTREMES") == "full"
 
+# back ends: those that there are, or those named
+BACKENDS = [name for name in PLAIN if os.environ.get(ALL_BACKENDS[name].variable)] or PLAIN[:1]
+if os.environ.get("FOAM_EXTREME_BACKENDS"):
+    BACKENDS = os.environ["FOAM_EXTREME_BACKENDS"].split(",")
+
 
 def cases(names, *lists):
-    """Parametrize by all combinations of the values in lists; in the short form by a few of them,
-    in which each value occurs."""
+    """Parametrize by all combinations of the values in lists and of the back ends, as fixture lmp;
+    in the short form by a few of them, in which each value occurs."""
+    lists = [list(values) for values in (*lists, BACKENDS)]
     rows = list(itertools.product(*lists))
     if not FULL:
         random = np.random.default_rng(1)
         longest = max(map(len, lists))
         turns = [random.permutation(longest) % len(values) for values in lists]
         turns[np.argmax([len(values) for values in lists])] = range(longest)
-        rows = [tuple(list(values)[t] for values, t in zip(lists, turn)) for turn in zip(*turns)]
-    return pytest.mark.parametrize(names, rows)
+        rows = [tuple(values[t] for values, t in zip(lists, turn)) for turn in zip(*turns)]
+    return pytest.mark.parametrize(f"{names}, lmp", rows, indirect=["lmp"])
 
 
 # A step changes the sum of gas by the rounding of some hundred terms, 1e-15, in either direction;
 # in the longest runs here that adds up to less than this
 GAS = 1e-12
-
-
-# dumps are not written where a run ends early
-LAST = ("write_dump all custom last id x y z vx vy vz fx fy fz radius "
-        "modify sort id format float %.17g")
 
 
 def last(result):
@@ -56,25 +58,29 @@ class Scene:
     boundary: str = "p p p"
     integrator: str = "abm max"
     tol: float = 1e-3
+    dt0: float = 0.01
+    dtmax: float = None
     step: str = ""                 # more keywords of the integrator
     K: float = 1e-2                # None: no fix foam/coarsen
     kappa: float = 0.1
     gas: str = ""                  # more keywords of fix foam/coarsen
     rmin: float = 0.1
+    gas_first: bool = False        # of the two fixes
+    gas_limit: float = GAS         # for variable radius and scheme source
     mu0: float = 1.0
     sigma0: float = 1.0
-    pair: str = ""
+    rin: float = None              # None: as the pair style finds it, the mean
+    pair: str = ""                 # more keywords of the pair style
     skin: float = 0.3
+    neighbor: str = "bin"
     before: str = ""               # lines before the box
     after: str = ""                # lines before the run
     run: int = 100
     every: int = 10                # steps between dumps, and lines of thermo output unless
     thermo: int = None             # these are more often
-    rin: float = None              # where pair has it; else the mean
 
     def __post_init__(self):
         self.x, self.R = np.asarray(self.x, float), np.asarray(self.R, float)
-        self.rin = self.rin or self.R.mean()
 
     @property
     def dim(self):
@@ -85,14 +91,20 @@ class Scene:
         sides = [side if np.isscalar(side) else side[1] - side[0] for side in self.box]
         return np.prod(sides[:self.dim])
 
+    @property
+    def mean(self):
+        """<R_in>"""
+        return self.rin or self.R.mean()
+
     def fixes(self):
-        lines = [f"fix step all {INTEGRATORS[self.integrator].format(tol=self.tol)} {self.step}"]
+        dtmax = f"dtmax {self.dtmax:.17g}" if self.dtmax else ""
+        lines = [f"fix step all {INTEGRATORS[self.integrator].format(tol=self.tol)} {dtmax} {self.step}"]
         if self.K is not None:
             lines += [f"fix gas all foam/coarsen {self.K:.17g} {self.kappa:.17g} "
                       f"rmin {self.rmin:.17g} {self.gas}"]
-        return "\n".join(lines)
+        return "\n".join([f"timestep {self.dt0:.17g}"] + lines[::-1 if self.gas_first else 1])
 
-    def output(self, dump="dump"):
+    def output(self):
         gas = "" if self.K is None else "f_gas[*]"
         return f"""
 compute       b all foam/bubble contacts area free vfilm vliquid rdot espring edurian
@@ -100,29 +112,42 @@ compute       p all pressure NULL virial
 thermo_style  custom step atoms time pe f_step[*] {gas} c_p[*]
 {PRECISE}
 thermo        {self.thermo or self.every}
-dump          d all custom {self.every} {dump} id x y z vx vy vz fx fy fz radius c_b[*]
+dump          d all custom {self.every} dump id x y z xu yu zu vx vy vz fx fy fz radius c_b[*]
 dump_modify   d sort id format float %.17g time yes
 """
 
-    def input(self):
+    def begin(self):
         return f"""
 units         lj
 dimension     {self.dim}
 atom_style    sphere 1
 atom_modify   map array
 boundary      {self.boundary}
-box           tilt large
 {self.before}
-read_data     data
-neighbor      {self.skin:.17g} bin
-pair_style    durian/foam {self.mu0:.17g} {self.pair}
-pair_coeff    * * {self.sigma0:.17g}
+"""
+
+    def go_on(self, run, name="last"):
+        return f"""
+neighbor      {self.skin:.17g} {self.neighbor}
 {self.fixes()}
 {self.output()}
 {self.after}
-run           {self.run}
-{LAST}
-"""
+run           {run}
+write_dump    all custom {name} id x y z vx vy vz fx fy fz radius modify sort id format float %.17g
+"""    # the last state, since dumps are not written where a run ends early
+
+    def input(self):
+        rin = f"rin {self.rin:.17g}" if self.rin else ""
+        return self.begin() + f"""
+read_data     data
+pair_style    durian/foam {self.mu0:.17g} {rin} {self.pair}
+pair_coeff    * * {self.sigma0:.17g}
+""" + self.go_on(self.run)
+
+    def continued(self, name, run):
+        """Input of a run that goes on from the restart file `name`."""
+        text = self.begin() + f"read_restart {name} noremap\n" + self.go_on(run, name="last2")
+        return text.replace("dump id", "dump2 id")
 
     def files(self):
         data = data_file(self.box, self.x, self.R)
@@ -133,6 +158,19 @@ run           {self.run}
 
     def but(self, **changes):
         return dataclasses.replace(self, **changes)
+
+    def scaled(self, length=1.0, time=1.0, stiffness=1.0):
+        """The same foam in other units, or one that is so much larger, slower, stiffer."""
+        def sides(box):
+            return [tuple(length * end for end in side) if np.iterable(side) else length * side
+                    for side in box]
+        return self.but(
+            x=length * self.x, R=length * self.R, box=sides(self.box),
+            tilt=self.tilt and tuple(length * t for t in self.tilt),
+            skin=length * self.skin, rin=self.rin and length * self.rin,
+            dt0=time * self.dt0, dtmax=self.dtmax and time * self.dtmax,
+            K=self.K and self.K * length**2 / time,
+            sigma0=stiffness * self.sigma0, mu0=stiffness * time * self.mu0)
 
     def __call__(self, lmp, check=True, **keywords):
         """Run it: with a result that is sound, or with the error that the caller looks at."""
@@ -191,20 +229,20 @@ def assert_sound(result, scene):
         if scene.K is None:
             assert np.array_equal(R, scene.R)
             continue
-        assert abs((R**dim).sum() / gas - 1) < GAS, f"gas at step {frame.step}"
+        assert abs((R**dim).sum() / gas - 1) < scene.gas_limit, f"gas at step {frame.step}"
         if frame.step:
-            assert R.min() >= scene.rmin * scene.rin * (1 - 1e-15)
+            assert R.min() >= scene.rmin * scene.mean * (1 - 1e-15)
     if scene.K is not None:
         content = np.pi if dim == 2 else 4 * np.pi / 3
         if scene.boundary == "p p p":
-            assert np.abs(thermo["f_gas[5]"] * scene.volume / (content * gas) - 1).max() < GAS
+            assert np.abs(thermo["f_gas[5]"] * scene.volume / (content * gas) - 1).max() < scene.gas_limit
         assert np.all(thermo["f_gas[4]"] * (1 + 1e-14) >= thermo["f_gas[3]"])    # largest, mean
 
     # forces between bubbles add up to none, as far as their own size lets them
     for frame in frames:
         f = frame.array(*["fx", "fy", "fz"][:dim])
-        if not scene.after:
-            assert np.abs(f.sum(0)).max() <= 1e-14 * len(f) * max(np.abs(f).max(), scene.rin * scene.sigma0)
+        if "fix" not in scene.after:
+            assert np.abs(f.sum(0)).max() <= 1e-14 * len(f) * max(np.abs(f).max(), scene.mean * scene.sigma0)
 
     # bubbles are in their box, but for what they moved since the last list build
     if scene.boundary == "p p p":
