@@ -16,8 +16,9 @@ ERRORS = {
 }
 # error allowed in number, mean radius, energy
 LEVELS = {"loose": (2.0e-3, 1.0e-3, 1.0e-2), "middle": (2.0e-4, 1.0e-4, 1.0e-3),
-          "tight": (5.0e-5, 1.0e-5, 1.0e-4)}
+          "tight": (1.0e-4, 1.0e-5, 1.0e-4)}
 FAMILIES = {"source": ["source"], "abm": ["abm max", "abm rms"], "rkc": ["rkc max", "rkc rms"]}
+FAR = 1.0e-2        # of the smallest error: chaos below that is told by a number, not drawn
 CURVES = [curve for family in FAMILIES.values() for curve in family]
 SPECIAL = [*CURVES, "reference", "chaos"]
 COLOURS = {"source": "0.45", "abm max": "#1f5a96", "abm rms": "#6aa0d8", "rkc max": "#c8702a",
@@ -109,7 +110,7 @@ def tables(rows):
         others = [row for row in group.at("last") if row["curve"] not in SPECIAL]
         parts += [run_line(row, group)
                   for row in sorted(others, key=lambda row: (row["curve"], row["precision"]))]
-    return "\n".join([*recommended(rows), *parts])
+    return "\n".join([recommended(rows), *parts])
 
 
 COLUMNS = [("error N", "last"), ("error R", "last"), ("error energy", "last"),
@@ -142,20 +143,22 @@ def run_line(row, group):
 def recommended(rows):
     """The cheapest settings of each family of methods at equal error."""
     lines = ["Cheapest settings that end within an error, and evaluations up to there",
-             *(f"  {name:7s} N within {n:.2%}, <R> within {R:.0e}, energy within {E:.0e}"
-               for name, (n, R, E) in LEVELS.items()),
+             *(f"  {name:7s} " + (f"N within {n:.2%}" if n else "N exact") +
+               f", <R> within {R:.0e}, energy within {E:.0e}" for name, (n, R, E) in LEVELS.items()),
              f"{'scene':8s}{'bubbles':>9s} {'error':8s}" +
-             "".join(f"{family + ':':38s}" for family in FAMILIES)]
+             "".join(f"  {family + ':':20s}" for family in FAMILIES)]
     for group in groups(rows):
         for level in LEVELS:
             line = f"{group.scene:8s}{group.bubbles:9d} {level:8s}"
             for family in FAMILIES:
                 row = group.cheapest(family, level)
-                text = (f"{number(row, 'evaluations'):.0f}  " +
-                        row["step"].removeprefix("foam/")) if row else "-"
-                line += f"{text:38s}"
+                text = f"{'-':>8s}"
+                if row:
+                    text = f"{number(row, 'evaluations'):8.0f}  " + " ".join(
+                        [row["value"], *row["curve"].split()[1:]])
+                line += f"  {text:20s}"
             lines.append(line.rstrip())
-    return lines
+    return "\n".join(lines)
 
 
 # ---- diagrams -----------------------------------------------------------------------------------
@@ -212,9 +215,13 @@ def panel(ax, group, column, when):
                         color=COLOURS[curve])
     spread = group.spread(column, when)
     if spread and lowest:
-        bottom = min(min(lowest), spread) / 3.0
-        ax.axhspan(bottom, spread, color="0.85", lw=0, label=r"chaos: start displaced by $10^{-12}$")
-        ax.set_ylim(bottom=bottom)
+        if spread > FAR * min(lowest):
+            ax.axhspan(min(*lowest, spread) / 3.0, spread, color="0.85", lw=0,
+                       label=r"chaos: start displaced by $10^{-12}$")
+        else:
+            ax.text(0.03, 0.03, f"chaos: {spread:.0e}", transform=ax.transAxes, color="0.5",
+                    fontsize=9)
+        ax.set_ylim(bottom=min(*lowest, max(spread, FAR * min(lowest))) / 3.0)
     ax.grid(alpha=0.25, which="major", lw=0.5)
     ax.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
     ax.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))

@@ -12,10 +12,11 @@
 
 #include "fix.h"
 #include "fix_foam_coarsen.h"
-#include "foam_input.h"
 #include "foam_host.h"
+#include "foam_input.h"
 
 #include <array>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -41,10 +42,12 @@ class FixFoamIntegrate : public Fix {
   int setmask() override;
   void init() override;
   void setup_pre_exchange() override;
+  void setup_pre_neighbor() override;
   void setup_post_neighbor() override;
   void setup(int) override;
   void initial_integrate(int) override;
   void pre_exchange() override;
+  void pre_neighbor() override;
   void post_neighbor() override;
   void final_integrate() override;
   void end_of_step() override;
@@ -203,6 +206,8 @@ class FixFoamIntegrate : public Fix {
   bigint dump_foreseen = -1;      // step for which energies of bubbles were asked for in time
   int delay_given = -1;           // neigh_modify delay, which does not count during a run
   FoamTotals totals;              // of a candidate, over all ranks
+
+  std::map<tagint, std::array<double, 3>> places;    // of a triclinic box, before set-up
 
   void check_bubbles();
   void check_ghosts();

@@ -89,9 +89,9 @@ FoamTotals FixFoamRKC::attempt_in(Space &here, double step, bool first)
   using B = typename Space::Bubbles;
   const int nlocal = atom->nlocal;
 
-  // F_0 is known from the last step, unless l has changed since or the box has taken the bubbles along
+  // F_0 is known from the last step, unless the box has taken the bubbles along since
 
-  if (first && (lagged() || domain->box_change)) {
+  if (first && domain->box_change) {
     here.for_each(nlocal, KeepStart<D, B>{state(here)});
     first = false;
     evaluate();
@@ -133,11 +133,20 @@ template <int D, class Space> void FixFoamRKC::estimate_in(Space &here)
   if (!(direction_size > 0.0) || !std::isfinite(direction_size))
     take(here.totals(nlocal, AnyDirection<D, B>{{state(here), q_unit}}));
 
+  Stages y{};
+  if (lagged()) {    // l is not that of the last step
+    y = stages(here);
+    here.for_each(nlocal, StepAside<D, B>{state(here), 0.0});
+    evaluate();
+    here.for_each(nlocal, KeepVelocities<D, B>{rates<D>(here), {y.x_before[0], y.x_before[1],
+                                                                y.x_before[2]}});
+  }
   for (int n = 0; n < ITERATIONS && direction_most > 0.0; n++) {
     const double before = radius, amount = aside * Rin / direction_most;
     here.for_each(nlocal, StepAside<D, B>{state(here), amount});
     evaluate();
     take(here.totals(nlocal, TakeDirection<D, B>{{state(here), q_unit}, rates<D>(here),
+                                                 {y.x_before[0], y.x_before[1], y.x_before[2]},
                                                  amount * direction_size}));
     radius = direction_size;
     if (std::fabs(radius - before) <= ENOUGH * radius) break;

@@ -527,7 +527,8 @@ template <int D, class B> struct Correct {
 // ---------------------------------------------------------------------- Runge-Kutta-Chebyshev
 
 // Between two stages x, q and radius in LAMMPS and State are Y_{j-1}, these Y_{j-2}; and how far
-// the evaluated stages were from the listed state
+// the evaluated stages were from the listed state. With neighbor drag l, in LAMMPS' v, follows the
+// velocities from stage to stage.
 
 struct Stages {
   double *x_before[3], *q_before, *moved;
@@ -545,6 +546,7 @@ template <int D, class B> struct FirstStage {
     for (int k = 0; k < D; k++) {
       y.x_before[k][i] = s.x_start[k][i];
       s.b.put(i, k, s.x_start[k][i] + step * s.v(i, k));
+      if (s.v_start[0]) s.b.v(i, k) = lagged_velocity(s.v_start[k][i], s.lag[k][i]);
     }
     if (s.grows) {
       y.q_before[i] = s.q_start[i];
@@ -568,10 +570,10 @@ template <int D, class B> struct NextStage {
     if (moved > y.moved[i]) y.moved[i] = moved;
     const double qdot = s.grows ? rates.qdot(i) : 0.0;
     for (int k = 0; k < D; k++) {
-      const double last = s.b.place(i, k);
-      s.b.put(i, k, advance(s.x_start[k][i], last, y.x_before[k][i], rates.velocity(i, k),
-                            s.v(i, k), h, c));
+      const double last = s.b.place(i, k), v = rates.velocity(i, k);
+      s.b.put(i, k, advance(s.x_start[k][i], last, y.x_before[k][i], v, s.v(i, k), h, c));
       y.x_before[k][i] = last;
+      if (s.v_start[0]) s.b.v(i, k) = lagged_velocity(v, s.b.v(i, k));
     }
     if (s.grows) {
       const double last = s.q[i];
@@ -674,12 +676,15 @@ template <int D, class B> struct TakeDirection {
   static constexpr const char *NAME = "foam: take direction";
   Direction<B> d;
   Rates<D, B> rates;
-  double amount;    // length of the step aside
+  double *v_there[3];    // velocities at the start, if they are not those of State
+  double amount;         // length of the step aside
   FOAM_FUNCTION void operator()(int i, FoamTotals &all) const
   {
     const State<B> &s = d.s;
-    for (int k = 0; k < D; k++)
-      s.v_before[k][i] = (rates.velocity(i, k) - s.v(i, k)) / amount;
+    for (int k = 0; k < D; k++) {
+      const double v = v_there[0] ? v_there[k][i] : s.v(i, k);
+      s.v_before[k][i] = (rates.velocity(i, k) - v) / amount;
+    }
     if (s.grows) s.qdot_before[i] = (rates.qdot(i) - s.qdot[i]) / amount;
     d.template measure<D>(i, all);
   }
@@ -689,6 +694,18 @@ template <int D, class B> struct KeepStart {
   static constexpr const char *NAME = "foam: keep start";
   State<B> s;
   FOAM_FUNCTION void operator()(int i) const { keep_start<D>(s, i); }
+};
+
+// the velocities of this evaluation, to compare others with that take the same l
+
+template <int D, class B> struct KeepVelocities {
+  static constexpr const char *NAME = "foam: keep velocities";
+  Rates<D, B> rates;
+  double *v[3];
+  FOAM_FUNCTION void operator()(int i) const
+  {
+    for (int k = 0; k < D; k++) v[k][i] = rates.velocity(i, k);
+  }
 };
 
 // the rates of the start, evaluated anew
@@ -701,9 +718,10 @@ template <int D, class B> struct TakeStartRates {
   {
     for (int k = 0; k < D; k++) {
       const double v = rates.velocity(i, k);
-      if (s.v_start[0])
+      if (s.v_start[0]) {
         s.v_start[k][i] = v;
-      else
+        s.lag[k][i] = s.b.v(i, k);
+      } else
         s.b.v(i, k) = v;
     }
     if (s.grows) s.qdot[i] = rates.qdot(i);

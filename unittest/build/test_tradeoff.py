@@ -15,6 +15,7 @@ LMP = os.environ.get("FOAM_LMP_SOURCE") or os.environ["FOAM_LMP_WHEEL"]
 sys.path.insert(0, str(SOURCE / "benchmarks"))
 
 import frontier     # noqa: E402
+import models       # noqa: E402
 import states       # noqa: E402
 import tradeoff     # noqa: E402
 
@@ -120,3 +121,26 @@ def test_a_lucky_hit_is_not_recommended():
     assert group.cheapest("abm", "middle")["value"] == "1e-4"
     assert group.cheapest("abm", "loose")["value"] == "1e-4"
     assert group.cheapest("rkc", "loose") is None
+
+
+def test_models(tmp_path):
+    tradeoff_command(tmp_path, "--models", "--repeat", "1")
+    with (tmp_path / "models.csv").open(newline="") as file:
+        rows = {row["model"]: row for row in csv.DictReader(file)}
+    assert list(rows) == [model.name for model in models.MODELS]
+    figures = {name: [float(row[key]) for key in ("N", "R", "energy")] for name, row in rows.items()}
+    # terms that are on without effect leave the answer as it is: the rates differ by 1e-12, so the
+    # states by some 1e-9 (the chaos of this scene amplifies by a factor of 1000)
+    assert figures["films alone, liquid with kappa = 1e-12"] == pytest.approx(
+        figures["films alone"], rel=1.0e-6)
+    assert figures["fixed sizes, fix foam/coarsen with K = 0"] == pytest.approx(
+        figures["fixed sizes"], rel=1.0e-6)
+    assert figures["fixed sizes"][0] == 100
+    # what has an effect has one
+    for name in ("films alone", "liquid alone", "neighbor drag", "harmonic walls along x"):
+        assert figures[name][2] != pytest.approx(figures["films and liquid"][2], rel=1.0e-3)
+    # output does not touch the state, but its steps build lists, which changes the order of sums
+    assert figures["compute foam/bubble, all, each 10 steps"][1] == pytest.approx(
+        figures["films and liquid"][1], rel=1.0e-3)
+    text = (tmp_path / "models.txt").read_text()
+    assert all(name in text for name in rows)
