@@ -221,7 +221,7 @@ def panel(ax, group, column, when):
         else:
             ax.text(0.03, 0.03, f"chaos: {spread:.0e}", transform=ax.transAxes, color="0.5",
                     fontsize=9)
-        ax.set_ylim(bottom=min(*lowest, max(spread, FAR * min(lowest))) / 3.0)
+        ax.set_ylim(bottom=min(*lowest, spread if spread > FAR * min(lowest) else 1.0) / 3.0)
     ax.grid(alpha=0.25, which="major", lw=0.5)
     ax.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
     ax.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from machine import Failed
 from run import say
 from scenes import SCENES
-from states import REACHED, errors, loop_seconds, read_state
+from states import errors, loop_seconds, read_state
 
 STEP = "foam/abm 1e-4 norm rms"
 
@@ -53,15 +53,9 @@ class Models:
         about = SCENES[scene]
         chosen = {key: value.format(gas=about.gas) if isinstance(value, str) else value
                   for key, value in model.variables.items()}
-        variables = {**about.variables(), "file": self.campaign.start(scene, bubbles),
-                     "step": f"{STEP} {model.more}".strip(), "look": 25,
-                     "until": f"{about.until[-1] / about.clock:.10g}", **chosen}
-        try:
-            text = self.campaign.lammps("double", "tradeoff/in.run", variables)
-        except Failed:
-            # may be over so soon that the coarse look came too late
-            text = self.campaign.lammps("double", "tradeoff/in.run", {**variables, "look": 1})
-        found = REACHED.search(text)
+        text, (found,) = self.campaign.run_scene(
+            scene, bubbles, f"{STEP} {model.more}".strip(),
+            {"until": f"{about.until[-1] / about.clock:.10g}", **chosen})
         row = {"scene": scene, "bubbles": bubbles, "model": model.name,
                "cpu seconds": loop_seconds(text)[1], "recipe": self.campaign.recipe(scene),
                "styles": self.campaign.styles, "lammps": self.campaign.version,

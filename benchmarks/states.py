@@ -4,10 +4,20 @@ import re
 
 import numpy as np
 
-REACHED = re.compile(r"^reached (?P<until>\S+) rest \S+ bubbles (?P<N>\d+) radius (?P<R>\S+) "
+from machine import Failed
+
+REACHED = re.compile(r"^reached (?P<until>\S+) rest (?P<rest>\S+) bubbles (?P<N>\d+) radius (?P<R>\S+) "
                      r"square \S+ energy (?P<energy>\S+) evaluations (?P<evaluations>\S+) "
                      r"rejected (?P<rejected>\S+) steps (?P<steps>\S+)", re.M)
 LOOP = re.compile(r"^Loop time of (\S+)|^([\d.]+)% CPU use", re.M)
+
+
+def reached(text):
+    """What was printed at each of the times, if they were hit."""
+    found = list(REACHED.finditer(text))
+    if any(abs(float(one["rest"])) > 1.0e-6 for one in found):
+        raise Failed("a step went beyond the time that was to be hit")
+    return found
 
 
 def loop_seconds(text):

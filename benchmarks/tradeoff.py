@@ -31,7 +31,7 @@ import machine
 from machine import HERE, Failed
 from run import choice_list, number_list, say
 from scenes import QUICK, SCENES
-from states import REACHED, errors, loop_seconds, read_state
+from states import errors, loop_seconds, reached, read_state
 
 CHAOS = 1.0e-12         # displacement of bubbles at the start of runs that show chaos
 SEEDS = (1, 2, 3)       # so many of them; of large foams, which are their own average, the first
@@ -95,10 +95,10 @@ def chaos(bubbles):
 def knobs(known, scene):
     """One setting changed at a time."""
     runs = []
-    for style, tol, norm in (("foam/abm", "1e-3", "max"), ("foam/rkc", "3e-4", "rms")):
+    for style, tol in (("foam/abm", "1e-5"), ("foam/rkc", "1e-3")):
         if style not in known:
             continue
-        base, short = f"{style} {tol} norm {norm}", style.removeprefix("foam/")
+        base, short = f"{style} {tol} norm rms", style.removeprefix("foam/")
         runs += [Run(f"{short} dtmax", h, f"{base} dtmax {h}") for h in ("0.1", "0.3", "1", "10")]
         runs += [Run(f"{short} skin", s, base, {"skin": s})
                  for s in ("0.1", "0.2", "0.3", "0.5", "0.8")]
@@ -115,6 +115,7 @@ COLUMNS = ["scene", "bubbles", "curve", "value", "step", "settings", "precision"
            "evaluations", "rejected", "steps", "seconds", "cpu seconds", "N", "R", "energy",
            "against", "error N", "error R", "error energy", "error sizes", "error radii",
            "error x", "recipe", "styles", "lammps", "machine", "date"]
+
 
 def digest(paths):
     """Short name of what these scripts and sources do: comments do not count."""
@@ -192,22 +193,27 @@ class Campaign:
                 row["step"] == run.step and row["recipe"] == self.recipe(scene) and
                 (row["styles"] == self.styles or not named(run, self.args.again))]
 
+    def run_scene(self, name, bubbles, step, variables, precision="double"):
+        """Output of a run, and what it says at each time."""
+        variables = {**SCENES[name].variables(), "file": self.start(name, bubbles), "step": step,
+                     **variables}
+        # a look at the time in each step lets removed bubbles be taken out in each, by a list build
+        for look in (25, 1) if bubbles > LARGE else (1,):
+            try:
+                text = self.lammps(precision, "tradeoff/in.run", {**variables, "look": look})
+                return text, reached(text)
+            except Failed:
+                if look == 1:
+                    raise
+
     def measure(self, name, bubbles, run):
         scene = SCENES[name]
-        variables = {**scene.variables(), "file": self.start(name, bubbles), "step": run.step,
-                     "look": 25 if bubbles > LARGE else 1, **run.variables}
-        try:
-            text = self.lammps(run.precision, "tradeoff/in.run", variables)
-        except Failed:
-            if variables["look"] == 1:
-                raise
-            # so few steps that the coarse look came too late
-            text = self.lammps(run.precision, "tradeoff/in.run", {**variables, "look": 1})
+        text, found = self.run_scene(name, bubbles, run.step, run.variables, run.precision)
         states = [read_state(self.args.out / f"state.{k + 1}") for k in range(len(scene.until))]
         rows, seconds, cpu, begin = [], 0.0, 0.0, 0
-        for clock, found in zip(scene.until, REACHED.finditer(text), strict=True):
-            more = loop_seconds(text[begin:found.end()])
-            seconds, cpu, begin = seconds + more[0], cpu + more[1], found.end()
+        for clock, one in zip(scene.until, found, strict=True):
+            more = loop_seconds(text[begin:one.end()])
+            seconds, cpu, begin = seconds + more[0], cpu + more[1], one.end()
             rows.append({
                 "scene": name, "bubbles": bubbles, "curve": run.curve, "value": run.value,
                 "step": run.step, "precision": run.precision, "clock": clock,
@@ -216,7 +222,7 @@ class Campaign:
                 "against": run.against, "recipe": self.recipe(name), "styles": self.styles,
                 "lammps": self.version, "machine": machine.cpu_name(),
                 "date": time.strftime("%Y-%m-%d"),
-                **{k: v for k, v in found.groupdict().items() if k in COLUMNS}})
+                **{k: v for k, v in one.groupdict().items() if k in COLUMNS}})
         if run.against:
             others = self.comparison(name, bubbles, run.against)
             for row, state, (other, other_row) in zip(rows, states, others, strict=True):
@@ -250,14 +256,13 @@ class Campaign:
                     runs += knobs(self.known, SCENES[name])
                     runs += [Run("precision", precision, step, precision=precision)
                              for precision in self.commands if precision != "double"
-                             for step in ("foam/abm 1e-3 norm max",)]
+                             for step in ("foam/abm 1e-5 norm rms", "foam/rkc 1e-3 norm rms")]
                 for run in runs:
                     if self.wanted(run):
                         yield name, bubbles, run
 
     def wanted(self, run):
-        return not run.against or run.curve == "chaos" or not self.args.curve or \
-            named(run, self.args.curve)
+        return run.curve == "reference" or not self.args.curve or named(run, self.args.curve)
 
     def missing(self, scene, bubbles, run):
         have = self.have(scene, bubbles, run)
@@ -400,7 +405,9 @@ def main():
     (args.out / "recommended.txt").write_text(frontier.recommended(rows) + "\n")
     show(frontier.tables(rows), args.out / "tradeoff.txt")
     try:
-        frontier.draw(rows, args.out)
+        frontier.draw(rows if args.draw else
+                      [row for row in rows if row["scene"] in args.scene and
+                       int(row["bubbles"]) in args.bubbles], args.out)
     except ImportError:
         say("no matplotlib, no diagrams: --draw makes them later")
     say(f"results: {args.out}/tradeoff.csv, tradeoff.txt")

@@ -166,7 +166,7 @@ void FixFoamCoarsen::count_living()
 double FixFoamCoarsen::compute_vector(int n)
 {
   pair = dynamic_cast<PairDurianFoam *>(force->pair_match("durian/foam", 0));
-  if (!pair) return 0.0;    // replaced since the last run
+  if (!pair || !(pair->rin > 0.0)) return 0.0;    // replaced since the last run, or there was none
   double box = domain->xprd * domain->yprd;
   if (domain->dimension == 3) box *= domain->zprd;
   const double N = population.bubbles;

@@ -308,7 +308,7 @@ void PairDurianFoam::init_style()
   cutoff_radius = MAX(largest, MIN(headroom * largest, 0.5 * side));
   check_images(largest);
 
-  if (domain->dimension == 2) thicken_box();
+  if (domain->dimension == 2) fit_thickness();
   neighbor->add_request(this, list_flags);
 }
 
@@ -334,21 +334,22 @@ void PairDurianFoam::check_images(double largest)
 }
 
 // In 2D the box has a thickness that means nothing, except that LAMMPS refuses to sort bubbles into
-// bins, half a cutoff wide, if these are a hundred times wider than thick.
+// bins, half a cutoff wide, if these are a hundred times wider than thick, or 2^31 times thinner.
 
-void PairDurianFoam::thicken_box()
+void PairDurianFoam::fit_thickness()
 {
   const double bin = 0.5 * (2.0 * cutoff_radius + neighbor->skin), thick = domain->zprd;
-  if (thick >= 0.02 * bin) return;    // safe by a factor of 2
-  domain->boxlo[2] *= 2.0 * bin / thick;
-  domain->boxhi[2] *= 2.0 * bin / thick;
+  if (thick >= 0.02 * bin && thick <= 1.0e8 * bin) return;    // with a factor to spare
+  const double factor = std::exp2(std::round(std::log2(2.0 * bin / thick)));    // rounds no z
+  domain->boxlo[2] *= factor;
+  domain->boxhi[2] *= factor;
   domain->set_global_box();
   if (domain->triclinic) domain->set_lamda_box();
   domain->set_local_box();
   if (comm->me == 0)
     utils::logmesg(lmp,
-                   "Pair style durian/foam: a 2D box of thickness {:.8} is too thin for neighbor bins "
-                   "of bubbles that large; it is {:.8} thick now\n",
+                   "Pair style durian/foam: the 2D box was {:.8} thick, which is no thickness for "
+                   "neighbor bins of bubbles of this size; it is {:.8} thick now\n",
                    thick, domain->zprd);
 }
 

@@ -90,7 +90,7 @@ class PairDurianFoam : public Pair {
 
   void allocate();
   void check_images(double largest);
-  void thicken_box();
+  void fit_thickness();
   void gather(unsigned);
   virtual void gather_contacts(unsigned);    // the loop itself
   struct Tally;

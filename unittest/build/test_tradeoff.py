@@ -25,7 +25,7 @@ FIGURES = [name for name in tradeoff.COLUMNS if name not in ("seconds", "cpu sec
 def tradeoff_command(out, *more):
     done = subprocess.run(
         [sys.executable, SOURCE / "benchmarks" / "tradeoff.py", "--lmp", LMP, "--scene", "2d",
-         "--bubbles", "100", "--curve", "abm max", "--out", out, *more],
+         "--bubbles", "100", "--curve", "abm max,chaos", "--out", out, *more],
         capture_output=True, text=True, timeout=300)
     assert done.returncode == 0, done.stdout + done.stderr
     return done

@@ -57,10 +57,15 @@ def number(above=None, at_least=None, below=()):
                 bad | {word: word for word in below})
 
 
-def count(least=0):
-    bad = {**NO_NUMBER, "negative": "-1", "fraction": "1.5", "a point": "1.0", "exponent": "1e3",
-           "too large for 64 bits": "9223372036854775808", "far too large": "99999999999999999999"}
-    return Kind(rf"an integer (>= {least}|from {least} to)\b", ["0", "1", "+1", "007"], bad)
+def integer(least, most=None):
+    bad = {**NO_NUMBER, "too small": str(least - 1), "negative": "-1", "fraction": f"{least}.5",
+           "a point": f"{least}.0", "exponent": "1e1", "too large for 64 bits": "9223372036854775808",
+           "far too large": "99999999999999999999"}
+    good = [str(least), str(least + 1), f"+{least}", f"00{least}"]
+    if most:
+        return Kind(f"an integer from {least} to {most}", [*good, str(most)],
+                    bad | {"too large": str(most + 1)})
+    return Kind(f"an integer >= {least}", good, bad)
 
 
 def one_of(*words):
@@ -70,11 +75,10 @@ def one_of(*words):
     return Kind(" or ".join(rf"\b{word}\b" for word in words), list(words), bad)
 
 
-def either(word, kind, good):
+def either(word, kind):
     """That word, or what the other kind allows."""
-    bad = {name: value for name, value in kind.bad.items()}
-    return Kind(rf"\b{word}\b or {kind.allowed}", [word, *good],
-                bad | {"upper case": word.upper(), "too long": word + "s"})
+    return Kind(rf"\b{word}\b or {kind.allowed}", [word, *kind.good],
+                kind.bad | {"upper case": word.upper(), "too long": word + "s"})
 
 
 def types(most):
@@ -101,8 +105,14 @@ STYLES = [
           others="two types and sigma0"),
     Style("gas", "foam/coarsen", "fix gas all foam/coarsen",
           {"K": number(at_least=0), "kappa": number(at_least=0)},
-          {"rmin": number(at_least=0), "liquid": one_of("area", "lsw"), "nmin": count(),
+          {"rmin": dataclasses.replace(number(at_least=0), good=["0.1", "+.5", "0", "-0", "1e-400"]),
+           "film": one_of("no", "yes"), "liquid": one_of("area", "lsw"), "nmin": integer(0),
            "ain": number(above=0)}),
+    Style("step", "foam/abm", "fix step all foam/abm", {"tolerance": number(above=0)},
+          {**INTEGRATOR, "scheme": one_of("standard", "source")}),
+    Style("step", "foam/rkc", "fix step all foam/rkc", {"tolerance": number(above=0)},
+          {**INTEGRATOR, "stages": either("auto", integer(3, 200)),
+           "spectral": either("auto", number(above=0))}),
     Style("compute", "foam/bubble", "compute b all foam/bubble", {},
           quantities=("contacts", "area", "free", "vfilm", "vliquid", "rdot", "espring", "edurian")),
 ]
@@ -121,7 +131,7 @@ SCRIPT = {
     "step": "fix step all foam/abm 1e-3",
     "compute": "compute b all foam/bubble contacts",
     "dump": "dump d all custom 1 dump id c_b",
-    "thermo": "thermo_style custom step time pe f_gas[*] f_step[*]",
+    "thermo": "thermo_style custom step time pe f_gas[1] f_gas[3] f_gas[4] f_gas[5] f_gas[8] f_step[6]",
     "run": "run 2",
 }
 

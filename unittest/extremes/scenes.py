@@ -13,6 +13,7 @@ from conftest import PRECISE, data_file
 INTEGRATORS = {
     "abm max": "foam/abm {tol:g} norm max",
     "abm rms": "foam/abm {tol:g} norm rms",
+    "rkc": "foam/rkc {tol:g}",
 }
 
 FULL = os.environ.get("FOAM_EXTREMES") == "full"
@@ -36,11 +37,6 @@ def cases(names, *lists):
 GAS = 1e-12
 
 
-# dumps are not written where a run ends early
-LAST = ("write_dump all custom last id x y z vx vy vz fx fy fz radius "
-        "modify sort id format float %.17g")
-
-
 def last(result):
     """The state at the end."""
     return result.dump("last")[0]
@@ -56,25 +52,28 @@ class Scene:
     boundary: str = "p p p"
     integrator: str = "abm max"
     tol: float = 1e-3
+    dt0: float = 0.01
+    dtmax: float = None
     step: str = ""                 # more keywords of the integrator
     K: float = 1e-2                # None: no fix foam/coarsen
     kappa: float = 0.1
     gas: str = ""                  # more keywords of fix foam/coarsen
     rmin: float = 0.1
+    gas_limit: float = GAS         # for variable radius and scheme source
     mu0: float = 1.0
     sigma0: float = 1.0
-    pair: str = ""
+    rin: float = None              # None: as the pair style finds it, the mean
+    pair: str = ""                 # more keywords of the pair style
     skin: float = 0.3
+    neighbor: str = "bin"
     before: str = ""               # lines before the box
     after: str = ""                # lines before the run
     run: int = 100
     every: int = 10                # steps between dumps, and lines of thermo output unless
     thermo: int = None             # these are more often
-    rin: float = None              # where pair has it; else the mean
 
     def __post_init__(self):
         self.x, self.R = np.asarray(self.x, float), np.asarray(self.R, float)
-        self.rin = self.rin or self.R.mean()
 
     @property
     def dim(self):
@@ -85,14 +84,21 @@ class Scene:
         sides = [side if np.isscalar(side) else side[1] - side[0] for side in self.box]
         return np.prod(sides[:self.dim])
 
+    @property
+    def mean(self):
+        """<R_in>"""
+        return self.rin or self.R.mean()
+
     def fixes(self):
-        lines = [f"fix step all {INTEGRATORS[self.integrator].format(tol=self.tol)} {self.step}"]
+        dtmax = f"dtmax {self.dtmax:.17g}" if self.dtmax else ""
+        lines = [f"timestep {self.dt0:.17g}",
+                 f"fix step all {INTEGRATORS[self.integrator].format(tol=self.tol)} {dtmax} {self.step}"]
         if self.K is not None:
             lines += [f"fix gas all foam/coarsen {self.K:.17g} {self.kappa:.17g} "
                       f"rmin {self.rmin:.17g} {self.gas}"]
         return "\n".join(lines)
 
-    def output(self, dump="dump"):
+    def output(self):
         gas = "" if self.K is None else "f_gas[*]"
         return f"""
 compute       b all foam/bubble contacts area free vfilm vliquid rdot espring edurian
@@ -100,29 +106,41 @@ compute       p all pressure NULL virial
 thermo_style  custom step atoms time pe f_step[*] {gas} c_p[*]
 {PRECISE}
 thermo        {self.thermo or self.every}
-dump          d all custom {self.every} {dump} id x y z vx vy vz fx fy fz radius c_b[*]
+dump          d all custom {self.every} dump id x y z xu yu zu vx vy vz fx fy fz radius c_b[*]
 dump_modify   d sort id format float %.17g time yes
 """
 
-    def input(self):
+    def begin(self):
         return f"""
 units         lj
 dimension     {self.dim}
 atom_style    sphere 1
 atom_modify   map array
 boundary      {self.boundary}
-box           tilt large
 {self.before}
-read_data     data
-neighbor      {self.skin:.17g} bin
-pair_style    durian/foam {self.mu0:.17g} {self.pair}
-pair_coeff    * * {self.sigma0:.17g}
+"""
+
+    def go_on(self, run, name="last"):
+        return f"""
+neighbor      {self.skin:.17g} {self.neighbor}
 {self.fixes()}
 {self.output()}
 {self.after}
-run           {self.run}
-{LAST}
-"""
+run           {run}
+write_dump    all custom {name} id x y z vx vy vz fx fy fz radius modify sort id format float %.17g
+"""    # the last state, since dumps are not written where a run ends early
+
+    def input(self):
+        rin = f"rin {self.rin:.17g}" if self.rin else ""
+        return self.begin() + f"""
+read_data     data
+pair_style    durian/foam {self.mu0:.17g} {rin} {self.pair}
+pair_coeff    * * {self.sigma0:.17g}
+""" + self.go_on(self.run)
+
+    def continued(self, name, run):
+        """Input of a run that goes on from the restart file `name`."""
+        return self.begin() + f"read_restart {name} noremap\n" + self.go_on(run, name="last2").replace("dump id", "dump2 id")
 
     def files(self):
         data = data_file(self.box, self.x, self.R)
@@ -133,6 +151,19 @@ run           {self.run}
 
     def but(self, **changes):
         return dataclasses.replace(self, **changes)
+
+    def scaled(self, length=1.0, time=1.0, stiffness=1.0):
+        """The same foam in other units, or one that is so much larger, slower, stiffer."""
+        def sides(box):
+            return [tuple(length * end for end in side) if np.iterable(side) else length * side
+                    for side in box]
+        return self.but(
+            x=length * self.x, R=length * self.R, box=sides(self.box),
+            tilt=self.tilt and tuple(length * t for t in self.tilt),
+            skin=length * self.skin, rin=self.rin and length * self.rin,
+            dt0=time * self.dt0, dtmax=self.dtmax and time * self.dtmax,
+            K=self.K and self.K * length**2 / time,
+            sigma0=stiffness * self.sigma0, mu0=stiffness * time * self.mu0)
 
     def __call__(self, lmp, check=True, **keywords):
         """Run it: with a result that is sound, or with the error that the caller looks at."""
@@ -191,20 +222,20 @@ def assert_sound(result, scene):
         if scene.K is None:
             assert np.array_equal(R, scene.R)
             continue
-        assert abs((R**dim).sum() / gas - 1) < GAS, f"gas at step {frame.step}"
+        assert abs((R**dim).sum() / gas - 1) < scene.gas_limit, f"gas at step {frame.step}"
         if frame.step:
-            assert R.min() >= scene.rmin * scene.rin * (1 - 1e-15)
+            assert R.min() >= scene.rmin * scene.mean * (1 - 1e-15)
     if scene.K is not None:
         content = np.pi if dim == 2 else 4 * np.pi / 3
         if scene.boundary == "p p p":
-            assert np.abs(thermo["f_gas[5]"] * scene.volume / (content * gas) - 1).max() < GAS
+            assert np.abs(thermo["f_gas[5]"] * scene.volume / (content * gas) - 1).max() < scene.gas_limit
         assert np.all(thermo["f_gas[4]"] * (1 + 1e-14) >= thermo["f_gas[3]"])    # largest, mean
 
     # forces between bubbles add up to none, as far as their own size lets them
     for frame in frames:
         f = frame.array(*["fx", "fy", "fz"][:dim])
-        if not scene.after:
-            assert np.abs(f.sum(0)).max() <= 1e-14 * len(f) * max(np.abs(f).max(), scene.rin * scene.sigma0)
+        if "fix" not in scene.after:
+            assert np.abs(f.sum(0)).max() <= 1e-14 * len(f) * max(np.abs(f).max(), scene.mean * scene.sigma0)
 
     # bubbles are in their box, but for what they moved since the last list build
     if scene.boundary == "p p p":

@@ -4,7 +4,9 @@ where starting LAMMPS anew takes a third of a second each.
   process = SharedProcess(lmp, directory)           lmp: a Runner of conftest.py
   end = process(text, files={NAME: TEXT or BYTES})
   end.error        what LAMMPS said when it gave up, "" if it did not
-  end.crash        what went wrong otherwise: a signal, a hang, a report of a sanitizer; "" if nothing
+  end.crash        what went wrong otherwise: a signal, a hang, a report of a sanitizer; "" if nothing.
+                   LAMMPS itself, after some of its own errors, crashes when it is closed, which no
+                   program of one input does: that counts only if the error is one of our styles
   end.screen       what LAMMPS wrote
 
 Each input has a LAMMPS object of its own.  An input that ends the process, or hangs, ends it for
@@ -18,12 +20,12 @@ import ctypes
 import json
 import os
 import select
-import signal
 import subprocess
 import sys
 from pathlib import Path
 
-HANG = 20.0              # s; an input here takes some ms
+LIMIT = 20.0             # s; an input here takes some ms
+HANG = "no answer"
 MEMORY = 4 << 30         # bytes that LAMMPS may ask for
 
 # what the program sees: its environment, and the files that it has in memory
@@ -52,14 +54,15 @@ class SharedProcess:
 
     def start(self):
         self.stderr = open(self.directory / "stderr", "w+")
-        self.process = subprocess.Popen(
+        self.process = subprocess.Popen(    # without buffers, so that select() sees all that is there
             self.command, env=self.environment, stdin=subprocess.PIPE, stdout=subprocess.PIPE,
-            stderr=self.stderr, text=True, start_new_session=True)
+            stderr=self.stderr, bufsize=0, start_new_session=True)
 
     def stop(self):
         if self.process:
-            os.killpg(self.process.pid, signal.SIGKILL)
+            self.process.kill()
             self.process.communicate()
+            self.stderr.close()
             self.process = None
 
     def __call__(self, text, files=None):
@@ -71,37 +74,44 @@ class SharedProcess:
         for name, content in {"in": text, **(files or {})}.items():
             write = Path.write_bytes if isinstance(content, bytes) else Path.write_text
             write(directory / name, content)
-        self.process.stdin.write(f"{directory}\n")
-        self.process.stdin.flush()
-        answered, _, _ = select.select([self.process.stdout], [], [], HANG)
-        line = self.process.stdout.readline() if answered else ""
+        self.process.stdin.write(f"{directory}\n".encode())
+        error = self.answer()
+        closed = self.answer() if error not in (None, HANG) else error
         self.stderr.seek(0)
         said = self.stderr.read()
-        screen = directory / "screen"
-        screen = screen.read_text(errors="replace") if screen.exists() else ""
-        if not answered:
+        end = End(error or "", screen=(directory / "screen").read_text(errors="replace")
+                  if (directory / "screen").exists() else "")
+        if closed == HANG:
+            end.crash = f"did not end within {LIMIT} s"
+        elif "Sanitizer" in said or "runtime error" in said:
+            end.crash = said
+        elif closed is None and (not error or "/FOAM/" in error):
+            end.crash = f"ended the process with status {self.process.wait()}: {said[-3000:]}"
+        if end.crash or closed is None:
             self.stop()
-            return End(crash=f"did not end within {HANG} s", screen=screen)
-        if not line:
-            status = self.process.wait()
-            self.process = None
-            return End(crash=f"ended the process with status {status}: {said[-3000:]}", screen=screen)
-        if "Sanitizer" in said or "runtime error" in said:
-            self.stop()
-            return End(crash=said, screen=screen)
-        return End(error=json.loads(line), screen=screen)
+        return end
+
+    def answer(self):
+        """The next line from the process: None if it has ended, HANG if there is none in time."""
+        answered, _, _ = select.select([self.process.stdout], [], [], LIMIT)
+        line = self.process.stdout.readline() if answered else json.dumps(HANG)
+        return json.loads(line) if line else None
 
 
 # ---- in the other process -----------------------------------------------------------------------
 
 def serve(library, args):
-    """Run LAMMPS in each directory named on stdin; answer with its error."""
-    if "Sanitizer" not in os.environ.get("LD_PRELOAD", "") and "asan" not in \
-            os.environ.get("LD_PRELOAD", ""):    # those reserve far more than they use
+    """Run LAMMPS in each directory named on stdin; answer with its error, and when it is closed."""
+    if "asan" not in os.environ.get("LD_PRELOAD", ""):    # which reserves far more than it uses
         import resource
         resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
     answers = os.fdopen(os.dup(1), "w")
     os.dup2(2, 1)
+
+    def answer(word):
+        answers.write(json.dumps(word) + "\n")
+        answers.flush()
+
     lammps = ctypes.CDLL(library, ctypes.RTLD_GLOBAL)
     lammps.lammps_open_no_mpi.restype = ctypes.c_void_p
     arguments = ["lmp", "-log", "none", "-nocite", "-screen", "screen", *args]
@@ -115,9 +125,9 @@ def serve(library, args):
         if lammps.lammps_has_error(handle):
             lammps.lammps_get_last_error_message(handle, message, len(message))
             error = message.value.decode(errors="replace")
+        answer(error)
         lammps.lammps_close(handle)
-        answers.write(json.dumps(error) + "\n")
-        answers.flush()
+        answer("closed")
 
 
 if __name__ == "__main__":

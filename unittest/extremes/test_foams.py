@@ -64,7 +64,7 @@ def test_one_giant(base_lmp, dim, ratio, integrator):
     x = random.normal(size=(n, dim))
     x *= ((ratio + random.uniform(-2, 2, n)) / np.linalg.norm(x, axis=1))[:, None]
     x[0] = 0.0
-    scene = Scene(2.0 * ratio + x, R, box, integrator=integrator, pair="rin 1.0", rin=1.0, K=0.1,
+    scene = Scene(2.0 * ratio + x, R, box, integrator=integrator, rin=1.0, K=0.1,
                   gas="nmin 1", run=100000, every=20)
     end = last(scene(base_lmp))
     assert list(end["id"]) == [1]
@@ -112,7 +112,7 @@ def test_nested(base_lmp, dim, gas, integrator):
     R = 8.0 * 0.5**np.arange(n)
     x = np.full((n, dim), 30.0)
     x[:, 0] += 0.1 * R
-    scene = Scene(x, R, [60.0] * dim, integrator=integrator, K=gas, pair="rin 1.0", rin=1.0, rmin=0.05,
+    scene = Scene(x, R, [60.0] * dim, integrator=integrator, K=gas, rin=1.0, rmin=0.05,
                   run=3000, every=20)
     end = last(scene(base_lmp))
     if gas is None:    # all come out

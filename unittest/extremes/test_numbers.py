@@ -1,0 +1,160 @@
+"""Numbers at their ends: tolerances, steps, coefficients; and very many steps."""
+
+import numpy as np
+import pytest
+
+from scenes import FULL, INTEGRATORS, Scene, anywhere, cases, last
+
+
+# ---- tolerance and steps ------------------------------------------------------------------------
+
+def two(dim=2, corner=0.0, **keywords):
+    """Two bubbles of radius 1, overlapping by 1/2, which decays like exp(-t)."""
+    x = np.full((2, dim), corner + 5.0)
+    x[:, 0] += [-0.75, 0.75]
+    return Scene(x, [1.0, 1.0], [(corner, corner + 10.0)] * dim, K=None, **keywords)
+
+
+def overlap(frame):
+    return 2.0 - np.linalg.norm(np.diff(frame.array("x", "y", "z"), axis=0))
+
+
+@cases("tol, integrator", [1e-13, 1e-11, 1e-8, 1e-5, 1e-2, 1.0, 100.0], INTEGRATORS)
+def test_tolerance(base_lmp, tol, integrator):
+    """A method of order 2 whose steps go as tol^(1/3) has errors as tol^(2/3); with a tolerance
+    larger than the overlap itself, the bubbles come apart and nothing else."""
+    scene = two(tol=tol, integrator=integrator, run=300, every=30)
+    frames = scene(base_lmp).dump("dump")
+    for frame in frames:
+        error = overlap(frame) - 0.5 * np.exp(-frame.time)
+        if tol <= 1e-2:
+            assert abs(error) < tol**(2 / 3) + 1e-13, f"{error} at t = {frame.time}"    # rounding
+    assert frames[-1].time > 0.01
+    assert overlap(frames[-1]) < 0.5 and overlap(frames[-1]) > -2 * tol
+
+
+@pytest.mark.parametrize("integrator", INTEGRATORS)
+def test_tolerance_below_rounding(base_lmp, integrator):
+    """A million from the origin a place has 10 digits behind the point: a clear stop, or the right
+    motion."""
+    scene = two(tol=1e-15, corner=1e6, integrator=integrator, run=3000, every=100, dt0=1e-3)
+    result = scene(base_lmp, check=False, timeout=60)
+    if result.returncode:
+        assert "the step fell to" in result.errors[0] and "tolerance" in result.errors[0]
+        return
+    frames = result.dump("dump")
+    for frame in frames:
+        assert overlap(frame) == pytest.approx(0.5 * np.exp(-frame.time), abs=1e-5)
+
+
+@cases("dtmax, dt0, integrator", [1e-9, 1e-3, 1e30], [1e-11, 1e30], INTEGRATORS)
+def test_limits_of_steps(base_lmp, dtmax, dt0, integrator):
+    scene = two(tol=1e-6, dtmax=dtmax, dt0=dt0, integrator=integrator, run=400, every=40)
+    result = scene(base_lmp)
+    h = result.thermo[0]["f_step[2]"]
+    assert h.max() <= dtmax
+    for frame in result.dump("dump"):
+        assert overlap(frame) == pytest.approx(0.5 * np.exp(-frame.time), abs=1e-4)
+    if dtmax < 1e-5:
+        assert h[-1] == dtmax    # nothing else holds it back
+
+
+@pytest.mark.parametrize("integrator", INTEGRATORS)
+def test_steps_without_effect(base_lmp, integrator):
+    """A step that is 1e-13 of the time in which springs relax is refused, in words."""
+    result = two(dtmax=1e-13, integrator=integrator)(base_lmp, check=False, timeout=20)
+    assert result.returncode > 0
+    assert "Fix foam/" in result.errors[0] and "1e-13" in result.errors[0]
+
+
+@cases("start, dim, integrator", [2147483500, 10**12], [2, 3], INTEGRATORS)
+def test_number_of_the_step(base_lmp, start, dim, integrator):
+    """Beyond 2^31 = 2147483648 there are the same foams."""
+    scene = anywhere(dim, 60, 0.9, integrator=integrator, K=0.1, run=200,
+                     before="atom_modify sort 0 0.0")    # the order of sums would depend on the step
+    a = scene(base_lmp)
+    b = base_lmp(scene.but(after=f"reset_timestep {start}").input(), files=scene.files())
+    assert last(b).step == start + last(a).step > 2**31
+    for name in ("x", "vx", "radius"):
+        assert np.array_equal(last(a)[name], last(b)[name])
+
+
+# ---- coefficients -------------------------------------------------------------------------------
+
+def free_bubbles(R, dim, K, kappa, law, t):
+    """Radii at t of bubbles that exchange gas through the liquid alone: Runge and Kutta's steps."""
+    A_in = np.mean(2 * np.pi * R if dim == 2 else 4 * np.pi * R**2)
+    R_in = R.mean()
+
+    def rate(R):
+        A = 2 * np.pi * R if dim == 2 else 4 * np.pi * R**2
+        w = A if law == "area" else A / R
+        c = kappa * K * (A_in / A.mean() if law == "area" else R_in)
+        return c * w * ((w / R).sum() / w.sum() - 1 / R) / A
+
+    h = t / 1000
+    for _ in range(1000):
+        a = rate(R)
+        b = rate(R + h / 2 * a)
+        c = rate(R + h / 2 * b)
+        R = R + h / 6 * (a + 2 * b + 2 * c + rate(R + h * c))
+    return R
+
+
+@cases("K, kappa, dim, law, integrator", [1e-9, 1e-3, 1.0], [1e-3, 1.0, 1e3], [2, 3],
+       ["area", "lsw"], INTEGRATORS)
+def test_free_exchange(base_lmp, K, kappa, dim, law, integrator):
+    """Bubbles on a wide grid, until one of them has almost vanished."""
+    random = np.random.default_rng(8)
+    R = random.uniform(0.8, 1.2, 4**dim)
+    x = np.stack(np.meshgrid(*[np.arange(4)] * dim), -1).reshape(-1, dim) * 6.0 + 3.0
+    scene = Scene(x, R, [24.0] * dim, K=K, kappa=kappa, gas=f"liquid {law} nmin {len(R) - 1}",
+                  integrator=integrator, tol=1e-7, dt0=1e-6 / (K * kappa),
+                  dtmax=0.1 / (K * kappa), run=3000, every=10)
+    frames = scene(base_lmp).dump("dump")
+    for frame in frames[1::len(frames) // 4]:
+        assert np.array_equal(frame["x"], x[:, 0])
+        expected = free_bubbles(R, dim, K, kappa, law, frame.time)
+        # order 2: tol^(2/3) = 2e-5; a small radius has a large rate, 10 times that of others
+        assert np.abs(frame["radius"]**dim - expected**dim).max() < 2e-4
+    assert len(frames) > 2
+
+
+@cases("kappa, K, integrator", [0.0, 1e-3, 1e3], [1e-6, 1.0], INTEGRATORS)
+def test_exchange_in_a_packing(base_lmp, kappa, K, integrator):
+    """Any strength: gas moves from the small to the large, no faster than the tolerance allows."""
+    scene = anywhere(2, 100, 0.9, K=K, kappa=kappa, integrator=integrator, run=300, dt0=1e-6)
+    thermo = scene(base_lmp).thermo[0]
+    assert thermo["f_gas[1]"][-1] > 0.0
+    assert thermo["f_gas[4]"][-1] > thermo["f_gas[4]"][0]
+
+
+# ---- very many steps ----------------------------------------------------------------------------
+
+MANY = 1000000 if FULL else 50000
+
+
+@pytest.mark.parametrize("integrator", INTEGRATORS)
+def test_many_steps_at_rest(base_lmp, integrator):
+    """A packing at rest stays where it is."""
+    steps = MANY // (1 if "abm" in integrator else 5)
+    scene = anywhere(2, 12, 1.0, integrator=integrator, K=None, tol=1e-6, dtmax=0.1, run=steps,
+                     every=steps // 10)
+    result = scene(base_lmp, timeout=600)
+    energy, frames = result.thermo[0]["PotEng"], result.dump("dump")
+    rest = slice(2, None)
+    assert np.ptp(energy[rest]) <= 1e-12 * energy[-1]
+    x = np.array([frame.array("xu", "yu") for frame in frames])
+    # no force from outside: the rounding of a step, 1e-16 of the box, at most adds up
+    assert np.abs(x.mean(1) - x[0].mean(0)).max() < 1e-16 * steps * scene.box[0]
+    assert frames[-1].time == pytest.approx(0.1 * steps, rel=5e-2)    # shorter ones at the start
+
+
+@pytest.mark.parametrize("integrator", INTEGRATORS)
+def test_many_steps_of_exchange(base_lmp, integrator):
+    """Gas goes round for as long: its sum stays."""
+    steps = MANY // (1 if "abm" in integrator else 5)
+    scene = anywhere(3, 12, 0.9, spread=0.05, integrator=integrator, K=1e-9, kappa=1.0, dtmax=0.1,
+                     run=steps, every=steps // 10, gas_limit=1e-16 * steps)
+    thermo = scene(base_lmp, timeout=600).thermo[0]
+    assert thermo["Step"][-1] == steps
