@@ -23,6 +23,7 @@ FixFoamABM::FixFoamABM(LAMMPS *lmp, int narg, char **arg) : FixFoamIntegrate(lmp
   if (drift_removed && control.scheme == Foam::Scheme::SOURCE)
     error->all(FLERR, "Fix {}: drift remove goes with scheme standard, not with scheme source",
                style);
+  if (control.scheme == Foam::Scheme::SOURCE && !norm_given) norm = Foam::Norm::MAX;    // as in [L20]
   add_callbacks();
 }
 

@@ -76,6 +76,7 @@ void FixFoamIntegrate::settings(int narg, char **arg, const FoamInput::Keywords 
       {"norm",
        [&](const Value &v) {
          norm = v.one_of({"max", "rms"}) == 1 ? Foam::Norm::RMS : Foam::Norm::MAX;
+         norm_given = true;
        }},
       {"drift", [&](const Value &v) { drift_removed = v.one_of({"keep", "remove"}) == 1; }}};
   all.insert(all.end(), own.begin(), own.end());

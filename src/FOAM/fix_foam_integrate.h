@@ -81,7 +81,8 @@ class FixFoamIntegrate : public Fix {
 
   Foam::StepControl control;
   Foam::Variable variable = Foam::Variable::VOLUME;
-  Foam::Norm norm = Foam::Norm::MAX;
+  Foam::Norm norm = Foam::Norm::RMS;
+  bool norm_given = false;
   double dt_start = 0.0, dt_limit = 0.0;    // 0: the defaults
   bool drift_removed = false;
 

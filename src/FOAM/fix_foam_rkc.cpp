@@ -13,7 +13,6 @@ using namespace LAMMPS_NS;
 
 FixFoamRKC::FixFoamRKC(LAMMPS *lmp, int narg, char **arg) : FixFoamIntegrate(lmp, narg, arg)
 {
-  norm = Foam::Norm::RMS;
   using Foam::Chebyshev;
   using Value = FoamInput::Value;
   settings(narg, arg,

@@ -470,7 +470,7 @@ def test_changed_between_runs(lmp, change, step):
            "dump_modify e sort id format float %.17g\nrun 1\nrun 20"
     result = lmp(foam(body, step=step), files=data())
     frame = result.dump("second")[0]
-    assert np.abs(frame["fx"]).max() > 0.05
+    assert np.abs(frame["fx"]).max() > 0.02    # at rest they would agree anyhow
     assert frame.array("vx", "vy") == pytest.approx(frame.array("fx", "fy"), abs=1e-12)
     assert result.thermo[2]["f_gas[2]"][-1] == result.thermo[2]["Atoms"][-1]
 

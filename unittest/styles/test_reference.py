@@ -230,7 +230,7 @@ def tolerance_error(lmp, state, tolerance):
 
     The interpolation's error, of order h^4, is far below that of the steps.
     """
-    frames = lmp(foam(state.dim, step=f"{tolerance:g} dt0 1e-4") + DUMP.format(every=1) + f"""
+    frames = lmp(foam(state.dim, step=f"{tolerance:g} norm max dt0 1e-4") + DUMP.format(every=1) + f"""
 variable      past equal time>{state.times[-1]}
 fix           end all halt 1 v_past > 0 error soft message no
 thermo        100000
