@@ -484,6 +484,16 @@ void PairDurianFoam::read_restart_settings(FILE *fp)
   ain_fixed = values[4] != 0.0;
   neighbor_drag = values[5] != 0.0;
   headroom = values[6];
+
+  // LAMMPS reads what is there, be it a damaged file or that of another version of this style
+
+  const bool sound = mu0 > 0.0 && rin >= 0.0 && ain >= 0.0 && headroom >= 1.0;
+  if (!sound || !std::isfinite(mu0 + rin + ain + headroom))
+    error->all(FLERR,
+               "Pair style durian/foam: the restart file has mu0 {} (must be > 0), mean radius {} and "
+               "mean surface {} (must be >= 0), headroom {} (must be >= 1): it is damaged, or of "
+               "another version of this style",
+               mu0, rin, ain, headroom);
 }
 
 void PairDurianFoam::write_data(FILE *fp)
