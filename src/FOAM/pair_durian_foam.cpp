@@ -334,6 +334,16 @@ void PairDurianFoam::check_images(double largest)
                domain->nonperiodic == 2 ? "; a box that shrinks around so few bubbles needs boundary m "
                                           "instead of s, or neighbor nsq"
                                         : "");
+
+  // To count a pair of a bubble and its own image once, LAMMPS' lists in a tilted box compare their
+  // places, and take those for equal that differ by less than this
+
+  const double blurred = 0.01 * force->angstrom;
+  if (domain->triclinic && force->newton_pair && 2.0 * largest >= side && side < blurred)
+    error->all(FLERR,
+               "Pair style durian/foam: contacts of bubbles with their own images in a triclinic box "
+               "with sides below {} need newton off, or another unit of length",
+               blurred);
 }
 
 // In 2D the box has a thickness that means nothing, except that LAMMPS refuses to sort bubbles into
