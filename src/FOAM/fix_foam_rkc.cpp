@@ -43,8 +43,8 @@ double FixFoamRKC::stable_step() const
 std::vector<double *> FixFoamRKC::progress()
 {
   auto all = FixFoamIntegrate::progress();
-  for (double *one :
-       {&radius, &radius_step, &direction_size, &direction_most, &stages_last, &rejected_then})
+  for (double *one : {&radius, &radius_step, &changed_step, &direction_size, &direction_most,
+                      &stages_last, &rejected_then})
     all.push_back(one);
   return all;
 }

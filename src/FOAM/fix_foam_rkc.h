@@ -51,6 +51,7 @@ class FixFoamRKC : public FixFoamIntegrate {
 
   double radius = 0.0;              // of the Jacobian, as estimated
   double radius_step = -1.0;        // number of accepted steps when it was
+  double changed_step = 0.0;        // the same when the foam was another
   double direction_size = 0.0;      // of the direction; 0: none yet
   double direction_most = 0.0;      // its largest component
   double stages_last = 0.0;
@@ -65,10 +66,17 @@ class FixFoamRKC : public FixFoamIntegrate {
   double aside = 1.0e-6;    // step aside of the bubble that moves most, in <R_in>: see FixFoamRKCKokkos
 
   double spectral_radius() const { return radius_given > 0.0 ? radius_given : MARGIN * radius; }
+
+  // A foam that is new, or that a command has changed, changes fast: bubbles that nearly coincide
+  // alone make the radius that of the inverse of their distance.  There estimates follow after 1, 2,
+  // 4, ... steps.
+
   bool estimate_due() const
   {
-    return radius_given == 0.0 && radius_step != accepted &&
-        (radius_step < 0.0 || accepted - radius_step >= (rejected == rejected_then ? STEPS : FEW));
+    if (radius_given > 0.0 || radius_step == accepted) return false;
+    if (h_before == 0.0) return true;
+    const double most = rejected == rejected_then ? STEPS : FEW;
+    return accepted - radius_step >= std::min(most, std::max(1.0, radius_step - changed_step));
   }
 
   template <class Space> Foam::Stages stages(Space &here)
@@ -130,8 +138,11 @@ template <int D, class Space> void FixFoamRKC::estimate_in(Space &here)
     direction_size = std::sqrt(all.sum[DIRECTION]);
     direction_most = all.max[COMPONENT];
   };
-  if (!(direction_size > 0.0) || !std::isfinite(direction_size))
+  auto any_direction = [&] {
     take(here.totals(nlocal, AnyDirection<D, B>{{state(here), q_unit}}));
+  };
+  bool kept = direction_size > 0.0 && std::isfinite(direction_size);
+  if (!kept) any_direction();
 
   Stages y{};
   if (lagged()) {    // l is not that of the last step
@@ -149,8 +160,11 @@ template <int D, class Space> void FixFoamRKC::estimate_in(Space &here)
                                                  {y.x_before[0], y.x_before[1], y.x_before[2]},
                                                  amount * direction_size}));
     radius = direction_size;
+    if (kept && !(radius > 0.0)) any_direction();    // those that the last one moved are gone
+    kept = false;
     if (std::fabs(radius - before) <= ENOUGH * radius) break;
   }
+  if (h_before == 0.0) changed_step = accepted;
   radius_step = accepted;
   rejected_then = rejected;
 }

@@ -329,8 +329,11 @@ void PairDurianFoam::check_images(double largest)
     error->all(FLERR,
                "Pair style durian/foam: the largest bubble, of radius {:.8}, is too large for a box "
                "whose shortest side is {:.8} ({:.3} images are within reach): radii must be in the "
-               "units of the box, and below {:.8}",
-               largest, side, images, 0.5 * WIDEST * side);
+               "units of the box, and below {:.8}{}",
+               largest, side, images, 0.5 * WIDEST * side,
+               domain->nonperiodic == 2 ? "; a box that shrinks around so few bubbles needs boundary m "
+                                          "instead of s, or neighbor nsq"
+                                        : "");
 }
 
 // In 2D the box has a thickness that means nothing, except that LAMMPS refuses to sort bubbles into

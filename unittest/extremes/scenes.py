@@ -7,7 +7,7 @@ import os
 import numpy as np
 import pytest
 
-from conftest import PRECISE, data_file
+from conftest import BACKENDS as ALL_BACKENDS, PLAIN, PRECISE, data_file
 
 # integrators by name: the line of the fix, with the tolerance left open
 INTEGRATORS = {
@@ -18,18 +18,24 @@ INTEGRATORS = {
 
 FULL = os.environ.get("FOAM_EXTREMES") == "full"
 
+# back ends: those that there are, or those named
+BACKENDS = [name for name in PLAIN if os.environ.get(ALL_BACKENDS[name].variable)] or PLAIN[:1]
+if os.environ.get("FOAM_EXTREME_BACKENDS"):
+    BACKENDS = os.environ["FOAM_EXTREME_BACKENDS"].split(",")
+
 
 def cases(names, *lists):
-    """Parametrize by all combinations of the values in lists; in the short form by a few of them,
-    in which each value occurs."""
+    """Parametrize by all combinations of the values in lists and of the back ends, as fixture lmp;
+    in the short form by a few of them, in which each value occurs."""
+    lists = [list(values) for values in (*lists, BACKENDS)]
     rows = list(itertools.product(*lists))
     if not FULL:
         random = np.random.default_rng(1)
         longest = max(map(len, lists))
         turns = [random.permutation(longest) % len(values) for values in lists]
         turns[np.argmax([len(values) for values in lists])] = range(longest)
-        rows = [tuple(list(values)[t] for values, t in zip(lists, turn)) for turn in zip(*turns)]
-    return pytest.mark.parametrize(names, rows)
+        rows = [tuple(values[t] for values, t in zip(lists, turn)) for turn in zip(*turns)]
+    return pytest.mark.parametrize(f"{names}, lmp", rows, indirect=["lmp"])
 
 
 # A step changes the sum of gas by the rounding of some hundred terms, 1e-15, in either direction;
@@ -59,6 +65,7 @@ class Scene:
     kappa: float = 0.1
     gas: str = ""                  # more keywords of fix foam/coarsen
     rmin: float = 0.1
+    gas_first: bool = False        # of the two fixes
     gas_limit: float = GAS         # for variable radius and scheme source
     mu0: float = 1.0
     sigma0: float = 1.0
@@ -91,12 +98,11 @@ class Scene:
 
     def fixes(self):
         dtmax = f"dtmax {self.dtmax:.17g}" if self.dtmax else ""
-        lines = [f"timestep {self.dt0:.17g}",
-                 f"fix step all {INTEGRATORS[self.integrator].format(tol=self.tol)} {dtmax} {self.step}"]
+        lines = [f"fix step all {INTEGRATORS[self.integrator].format(tol=self.tol)} {dtmax} {self.step}"]
         if self.K is not None:
             lines += [f"fix gas all foam/coarsen {self.K:.17g} {self.kappa:.17g} "
                       f"rmin {self.rmin:.17g} {self.gas}"]
-        return "\n".join(lines)
+        return "\n".join([f"timestep {self.dt0:.17g}"] + lines[::-1 if self.gas_first else 1])
 
     def output(self):
         gas = "" if self.K is None else "f_gas[*]"
@@ -140,7 +146,8 @@ pair_coeff    * * {self.sigma0:.17g}
 
     def continued(self, name, run):
         """Input of a run that goes on from the restart file `name`."""
-        return self.begin() + f"read_restart {name} noremap\n" + self.go_on(run, name="last2").replace("dump id", "dump2 id")
+        text = self.begin() + f"read_restart {name} noremap\n" + self.go_on(run, name="last2")
+        return text.replace("dump id", "dump2 id")
 
     def files(self):
         data = data_file(self.box, self.x, self.R)

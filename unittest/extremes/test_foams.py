@@ -9,16 +9,16 @@ PHI = [0.01, 0.3, 0.64, 0.84, 1.0, 1.3]
 
 
 @cases("phi, dim, integrator", PHI, [2, 3], INTEGRATORS)
-def test_gas_fraction(base_lmp, dim, phi, integrator):
+def test_gas_fraction(lmp, dim, phi, integrator):
     """From bubbles in chance positions: coarsening, with what the fix says of phi."""
     scene = anywhere(dim, 150, phi, integrator=integrator, kappa=1.0, run=300)
-    result = scene(base_lmp)
+    result = scene(lmp)
     assert result.thermo[0]["f_gas[5]"] == pytest.approx(phi, rel=1e-12)
     assert result.thermo[0]["Time"][-1] > 10    # steps are not much shorter than springs relax
 
 
 @cases("phi, dim, integrator", PHI, [2, 3], INTEGRATORS)
-def test_relaxation(base_lmp, dim, phi, integrator):
+def test_relaxation(lmp, dim, phi, integrator):
     """At fixed radii energy never rises, and is gone where bubbles have room enough.
 
     A contact that opens may open a little too far, or another close: by the error allowed. N
@@ -26,7 +26,7 @@ def test_relaxation(base_lmp, dim, phi, integrator):
     """
     tol = 1e-4
     scene = anywhere(dim, 100, phi, integrator=integrator, tol=tol, K=None, run=600, every=50, thermo=1)
-    energy = scene(base_lmp).thermo[0]["PotEng"]
+    energy = scene(lmp).thermo[0]["PotEng"]
     assert np.diff(energy).max() <= 100 * tol**2
     if phi < 0.6:
         assert energy[-1] <= 100 * tol**2
@@ -36,24 +36,24 @@ def test_relaxation(base_lmp, dim, phi, integrator):
 # ---- sizes --------------------------------------------------------------------------------------
 
 @cases("dim, kappa, integrator", [2, 3], [0.0, 1.0], INTEGRATORS)
-def test_equal_bubbles(base_lmp, dim, kappa, integrator):
+def test_equal_bubbles(lmp, dim, kappa, integrator):
     """Without a spread of radii there is no exchange: 1/rho - 1/R is rounding."""
     scene = anywhere(dim, 100, 0.9, spread=0.0, kappa=kappa, K=1.0, integrator=integrator, run=200)
-    end = last(scene(base_lmp))
+    end = last(scene(lmp))
     assert end["radius"] == pytest.approx(scene.R, rel=1e-13)    # 200 steps of 1e-16 each
     assert len(end) == 100
 
 
 @cases("spread, dim, integrator", [0.01, 0.5, 1.0], [2, 3], INTEGRATORS)
-def test_spread_of_radii(base_lmp, dim, spread, integrator):
+def test_spread_of_radii(lmp, dim, spread, integrator):
     scene = anywhere(dim, 200, 0.9, spread=spread, integrator=integrator, run=400, K=0.1)
-    thermo = scene(base_lmp).thermo[0]
+    thermo = scene(lmp).thermo[0]
     assert thermo["f_gas[7]"][-1] > 0 or spread < 0.1
     assert thermo["f_gas[3]"][-1] > 1.0
 
 
 @cases("ratio, dim, integrator", [10, 100, 1000], [2, 3], INTEGRATORS)
-def test_one_giant(base_lmp, dim, ratio, integrator):
+def test_one_giant(lmp, dim, ratio, integrator):
     """Small bubbles on top of one that is up to 1000 times larger, in it and outside: it gets all
     gas in the end. Their size is what counts: the giant alone would be the mean of few."""
     random = np.random.default_rng(2)
@@ -66,27 +66,27 @@ def test_one_giant(base_lmp, dim, ratio, integrator):
     x[0] = 0.0
     scene = Scene(2.0 * ratio + x, R, box, integrator=integrator, rin=1.0, K=0.1,
                   gas="nmin 1", run=100000, every=20)
-    end = last(scene(base_lmp))
+    end = last(scene(lmp))
     assert list(end["id"]) == [1]
     assert (end["radius"]**dim)[0] == pytest.approx((R**dim).sum(), rel=1e-12)
 
 
 @cases("dim, n, integrator", [2, 3], [2, 3, 10, 50], INTEGRATORS)
-def test_down_to_the_last(base_lmp, dim, n, integrator):
+def test_down_to_the_last(lmp, dim, n, integrator):
     """Through films and liquid, until one is left."""
     scene = anywhere(dim, n, 0.5, spread=0.5, seed=n, K=1.0, kappa=1.0, gas="nmin 1",
                      integrator=integrator, run=100000)
-    result = scene(base_lmp)
+    result = scene(lmp)
     if "spans the box" not in result.screen:
         assert result.thermo[0]["Atoms"][-1] == 1
 
 
 @cases("dim, n, integrator", [2, 3], [1, 2, 3], INTEGRATORS)
-def test_few(base_lmp, dim, n, integrator):
+def test_few(lmp, dim, n, integrator):
     """They may run for ever: the last one stays."""
     scene = anywhere(dim, n, 0.1, spread=0.5, seed=n, K=1.0, kappa=1.0, integrator=integrator, run=2000,
                      every=100)
-    thermo = scene(base_lmp).thermo[0]
+    thermo = scene(lmp).thermo[0]
     assert thermo["Atoms"][-1] == 1
     assert thermo["Step"][-1] == 2000
 
@@ -94,11 +94,11 @@ def test_few(base_lmp, dim, n, integrator):
 # ---- on top of each other -----------------------------------------------------------------------
 
 @cases("dim, gas, integrator", [2, 3], [None, 0.1], INTEGRATORS)
-def test_all_in_one_point(base_lmp, dim, gas, integrator):
+def test_all_in_one_point(lmp, dim, gas, integrator):
     random = np.random.default_rng(3)
     R = radii(random, 40, 0.5)
     scene = Scene(np.full((40, dim), 7.5), R, [100.0] * dim, integrator=integrator, K=gas, run=500)
-    result = scene(base_lmp)
+    result = scene(lmp)
     x = last(result).array("x", "y", "z")
     assert np.ptp(x[:, 0]) > 3.0
     # where nothing tells other directions from each other, nothing goes there
@@ -106,7 +106,7 @@ def test_all_in_one_point(base_lmp, dim, gas, integrator):
 
 
 @cases("dim, gas, integrator", [2, 3], [None, 0.1], INTEGRATORS)
-def test_nested(base_lmp, dim, gas, integrator):
+def test_nested(lmp, dim, gas, integrator):
     """Each bubble swallows the next, 2 times smaller."""
     n = 8
     R = 8.0 * 0.5**np.arange(n)
@@ -114,7 +114,7 @@ def test_nested(base_lmp, dim, gas, integrator):
     x[:, 0] += 0.1 * R
     scene = Scene(x, R, [60.0] * dim, integrator=integrator, K=gas, rin=1.0, rmin=0.05,
                   run=3000, every=20)
-    end = last(scene(base_lmp))
+    end = last(scene(lmp))
     if gas is None:    # all come out
         x = end.array("x", "y", "z")
         d = np.linalg.norm(x[:, None] - x, axis=2)
@@ -125,12 +125,12 @@ def test_nested(base_lmp, dim, gas, integrator):
 # ---- boxes --------------------------------------------------------------------------------------
 
 @cases("dim, gas, integrator", [2, 3], [None, 1e-2], INTEGRATORS)
-def test_thinner_than_a_bubble(base_lmp, dim, gas, integrator):
+def test_thinner_than_a_bubble(lmp, dim, gas, integrator):
     """The end of coarsening, at once; at fixed radii the foam relaxes."""
     shape = [1.0] * (dim - 1) + [0.01]
     scene = anywhere(dim, 40, 0.7, shape=shape, K=gas, integrator=integrator, run=200)
     assert scene.box[-1] < 2 * scene.R.max()
-    result = scene(base_lmp)
+    result = scene(lmp)
     energy = result.thermo[0]["PotEng"]
     if gas is None:
         assert energy[-1] < energy[0]
@@ -139,13 +139,13 @@ def test_thinner_than_a_bubble(base_lmp, dim, gas, integrator):
 
 
 @cases("dim, ranks, integrator", [2, 3], [1, 2], INTEGRATORS)
-def test_long_box(base_lmp, dim, ranks, integrator):
+def test_long_box(lmp, dim, ranks, integrator):
     """1:1000, and on two ranks."""
     shape = [1000.0] + [1.0] * (dim - 1)
     scene = anywhere(dim, 3000, 0.9 if dim == 2 else 0.2, spread=0.1, shape=shape,
                      integrator=integrator, run=100, every=50, K=1e-3)
     assert scene.box[-1] > 2 * scene.R.max()
-    thermo = scene(base_lmp, ranks=ranks).thermo[0]
+    thermo = scene(lmp, ranks=ranks).thermo[0]
     assert thermo["Step"][-1] == 100
 
 
@@ -157,14 +157,14 @@ def images_apart(a, b, vectors):
 
 @cases("dim, tilt, integrator", [2, 3], [(1, 0, 0), (-3, 0, 0), (0.5, -0.5, 0.5), (1, 2, -1)],
        INTEGRATORS)
-def test_triclinic(base_lmp, dim, tilt, integrator):
+def test_triclinic(lmp, dim, tilt, integrator):
     """A lattice has many boxes: tilted by whole vectors the foam is the same."""
     if dim == 2:
         tilt = (tilt[0], 0, 0)
     plain = anywhere(dim, 60, 0.8, integrator=integrator, run=60, K=0.05)
     L = plain.box[0]
     tilted = plain.but(tilt=tuple(t * L for t in tilt))
-    a, b = plain(base_lmp), tilted(base_lmp)
+    a, b = plain(lmp), tilted(lmp)
     if all(t == int(t) for t in tilt):
         f, g = last(a), last(b)
         assert np.array_equal(f["id"], g["id"])
@@ -175,7 +175,7 @@ def test_triclinic(base_lmp, dim, tilt, integrator):
 
 
 @cases("dim, boundary, integrator", [2, 3], ["s s s", "m m m", "f f f", "p s f"], INTEGRATORS)
-def test_not_periodic(base_lmp, dim, boundary, integrator):
+def test_not_periodic(lmp, dim, boundary, integrator):
     """A cluster that reaches no border does not know of what kind that is."""
     boundary = boundary if dim == 3 else boundary[:3] + " p"
     random = np.random.default_rng(4)
@@ -183,10 +183,20 @@ def test_not_periodic(base_lmp, dim, boundary, integrator):
     x = 50.0 + random.uniform(-4, 4, (30, dim))
     plain = Scene(x, R, [100.0] * dim, integrator=integrator, K=0.1, kappa=0.0, run=60)
     other = plain.but(boundary=boundary)
-    f, g = (last(s(base_lmp)) for s in (plain, other))
+    f, g = (last(s(lmp)) for s in (plain, other))
     assert np.array_equal(f["id"], g["id"])
     for column in ("x", "y", "z", "radius"):
         assert f[column] == pytest.approx(g[column], rel=1e-9), column
+
+
+def test_box_without_width(base_lmp):
+    """One bubble in a box that shrinks around it: a clear stop, that names the way out."""
+    alone = Scene([[5.0, 5.0]], [1.0], [10.0, 10.0], boundary="s s p", K=None)
+    result = alone(base_lmp, check=False, timeout=30)
+    assert result.returncode > 0
+    assert "boundary m" in result.errors[0] and "nsq" in result.errors[0]
+    for way_out in alone.but(boundary="m m p"), alone.but(neighbor="nsq"):
+        assert np.array_equal(last(way_out(base_lmp)).array("x", "y"), alone.x)
 
 
 def test_lost(base_lmp):

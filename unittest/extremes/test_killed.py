@@ -41,32 +41,32 @@ def files(directory):
 
 
 @cases("ranks, integrator", [1, 2], INTEGRATORS)
-def test_killed_and_continued(base_lmp, integrator, ranks):
+def test_killed_and_continued(lmp, integrator, ranks):
     """Killed at any time, also while a restart file is written: of two files that are written in
     turn, one can be read, and the other too or is refused. The end is the same bit by bit."""
     # steps that write a restart build lists, so the whole run has to write them, too
     scene = anywhere(2, 60, 0.9, integrator=integrator, K=0.01, run=STEPS, every=50,
                      after=f"restart {EVERY} state.a state.b")
-    whole = scene(base_lmp, ranks=ranks)
+    whole = scene(lmp, ranks=ranks)
     end = last(whole)
     steps = int(end.step)
     assert steps > 20 * EVERY
 
     delays = random.Random(5)
     for kill in range(KILLS):
-        directory = base_lmp.directory / f"killed{kill}"
+        directory = lmp.directory / f"killed{kill}"
         directory.mkdir()
         for name, text in scene.files().items():
             (directory / name).write_text(text)
         text, refused = scene.input(), 0
         for life in range(3):
-            killed(base_lmp, directory, text, delays.uniform(0.0, 0.3), ranks)
+            killed(lmp, directory, text, delays.uniform(0.0, 0.3), ranks)
             names = sorted(files(directory), key=files(directory).get, reverse=True)
             for name in names:    # the newest that can be read
                 # a file read must not be written over before the next one is there
                 kept = f"kept{life}"
                 (directory / kept).write_bytes((directory / name).read_bytes())
-                check = base_lmp(scene.begin() + f"read_restart {kept} noremap\n", check=False,
+                check = lmp(scene.begin() + f"read_restart {kept} noremap\n", check=False,
                                  directory=directory, ranks=ranks, timeout=30)
                 if check.returncode == 0:
                     break
@@ -74,7 +74,7 @@ def test_killed_and_continued(base_lmp, integrator, ranks):
                 refused += 1
             assert check.returncode == 0, "no restart file can be read"
             text = scene.continued(kept, f"{STEPS} upto")
-        result = base_lmp(text, directory=directory, ranks=ranks)
+        result = lmp(text, directory=directory, ranks=ranks)
         again = result.dump("last2")[0]
         assert again.step == steps
         for name in again._columns:
@@ -82,15 +82,15 @@ def test_killed_and_continued(base_lmp, integrator, ranks):
         print(f"kill {kill}: {refused} files refused")
 
 
-@pytest.mark.parametrize("ranks", [1, 2])
-def test_cut_restart_file(base_lmp, ranks):
+@cases("ranks", [1, 2])
+def test_cut_restart_file(lmp, ranks):
     """A restart file that ends too early is refused, wherever it ends."""
     scene = anywhere(2, 60, 0.9, run=50, after="restart 50 state.*")
-    result = scene(base_lmp, ranks=ranks)
+    result = scene(lmp, ranks=ranks)
     whole = (result.directory / "state.50").read_bytes()
     for end in np.linspace(0, len(whole) - 1, 40 if FULL else 5).astype(int):
         (result.directory / "cut").write_bytes(whole[:end])
-        cut = base_lmp(scene.continued("cut", 10), directory=result.directory, ranks=ranks,
+        cut = lmp(scene.continued("cut", 10), directory=result.directory, ranks=ranks,
                        check=False, timeout=30)
         assert cut.returncode > 0, f"{end} of {len(whole)} bytes"
         assert cut.errors, cut.screen

@@ -20,11 +20,11 @@ def overlap(frame):
 
 
 @cases("tol, integrator", [1e-13, 1e-11, 1e-8, 1e-5, 1e-2, 1.0, 100.0], INTEGRATORS)
-def test_tolerance(base_lmp, tol, integrator):
+def test_tolerance(lmp, tol, integrator):
     """A method of order 2 whose steps go as tol^(1/3) has errors as tol^(2/3); with a tolerance
     larger than the overlap itself, the bubbles come apart and nothing else."""
     scene = two(tol=tol, integrator=integrator, run=300, every=30)
-    frames = scene(base_lmp).dump("dump")
+    frames = scene(lmp).dump("dump")
     for frame in frames:
         error = overlap(frame) - 0.5 * np.exp(-frame.time)
         if tol <= 1e-2:
@@ -33,12 +33,12 @@ def test_tolerance(base_lmp, tol, integrator):
     assert overlap(frames[-1]) < 0.5 and overlap(frames[-1]) > -2 * tol
 
 
-@pytest.mark.parametrize("integrator", INTEGRATORS)
-def test_tolerance_below_rounding(base_lmp, integrator):
+@cases("integrator", INTEGRATORS)
+def test_tolerance_below_rounding(lmp, integrator):
     """A million from the origin a place has 10 digits behind the point: a clear stop, or the right
     motion."""
     scene = two(tol=1e-15, corner=1e6, integrator=integrator, run=3000, every=100, dt0=1e-3)
-    result = scene(base_lmp, check=False, timeout=60)
+    result = scene(lmp, check=False, timeout=60)
     if result.returncode:
         assert "the step fell to" in result.errors[0] and "tolerance" in result.errors[0]
         return
@@ -48,9 +48,9 @@ def test_tolerance_below_rounding(base_lmp, integrator):
 
 
 @cases("dtmax, dt0, integrator", [1e-9, 1e-3, 1e30], [1e-11, 1e30], INTEGRATORS)
-def test_limits_of_steps(base_lmp, dtmax, dt0, integrator):
+def test_limits_of_steps(lmp, dtmax, dt0, integrator):
     scene = two(tol=1e-6, dtmax=dtmax, dt0=dt0, integrator=integrator, run=400, every=40)
-    result = scene(base_lmp)
+    result = scene(lmp)
     h = result.thermo[0]["f_step[2]"]
     assert h.max() <= dtmax
     for frame in result.dump("dump"):
@@ -59,21 +59,21 @@ def test_limits_of_steps(base_lmp, dtmax, dt0, integrator):
         assert h[-1] == dtmax    # nothing else holds it back
 
 
-@pytest.mark.parametrize("integrator", INTEGRATORS)
-def test_steps_without_effect(base_lmp, integrator):
+@cases("integrator", INTEGRATORS)
+def test_steps_without_effect(lmp, integrator):
     """A step that is 1e-13 of the time in which springs relax is refused, in words."""
-    result = two(dtmax=1e-13, integrator=integrator)(base_lmp, check=False, timeout=20)
+    result = two(dtmax=1e-13, integrator=integrator)(lmp, check=False, timeout=20)
     assert result.returncode > 0
     assert "Fix foam/" in result.errors[0] and "1e-13" in result.errors[0]
 
 
 @cases("start, dim, integrator", [2147483500, 10**12], [2, 3], INTEGRATORS)
-def test_number_of_the_step(base_lmp, start, dim, integrator):
+def test_number_of_the_step(lmp, start, dim, integrator):
     """Beyond 2^31 = 2147483648 there are the same foams."""
     scene = anywhere(dim, 60, 0.9, integrator=integrator, K=0.1, run=200,
                      before="atom_modify sort 0 0.0")    # the order of sums would depend on the step
-    a = scene(base_lmp)
-    b = base_lmp(scene.but(after=f"reset_timestep {start}").input(), files=scene.files())
+    a = scene(lmp)
+    b = lmp(scene.but(after=f"reset_timestep {start}").input(), files=scene.files())
     assert last(b).step == start + last(a).step > 2**31
     for name in ("x", "vx", "radius"):
         assert np.array_equal(last(a)[name], last(b)[name])
@@ -103,7 +103,7 @@ def free_bubbles(R, dim, K, kappa, law, t):
 
 @cases("K, kappa, dim, law, integrator", [1e-9, 1e-3, 1.0], [1e-3, 1.0, 1e3], [2, 3],
        ["area", "lsw"], INTEGRATORS)
-def test_free_exchange(base_lmp, K, kappa, dim, law, integrator):
+def test_free_exchange(lmp, K, kappa, dim, law, integrator):
     """Bubbles on a wide grid, until one of them has almost vanished."""
     random = np.random.default_rng(8)
     R = random.uniform(0.8, 1.2, 4**dim)
@@ -111,7 +111,7 @@ def test_free_exchange(base_lmp, K, kappa, dim, law, integrator):
     scene = Scene(x, R, [24.0] * dim, K=K, kappa=kappa, gas=f"liquid {law} nmin {len(R) - 1}",
                   integrator=integrator, tol=1e-7, dt0=1e-6 / (K * kappa),
                   dtmax=0.1 / (K * kappa), run=3000, every=10)
-    frames = scene(base_lmp).dump("dump")
+    frames = scene(lmp).dump("dump")
     for frame in frames[1::len(frames) // 4]:
         assert np.array_equal(frame["x"], x[:, 0])
         expected = free_bubbles(R, dim, K, kappa, law, frame.time)
@@ -121,10 +121,10 @@ def test_free_exchange(base_lmp, K, kappa, dim, law, integrator):
 
 
 @cases("kappa, K, integrator", [0.0, 1e-3, 1e3], [1e-6, 1.0], INTEGRATORS)
-def test_exchange_in_a_packing(base_lmp, kappa, K, integrator):
+def test_exchange_in_a_packing(lmp, kappa, K, integrator):
     """Any strength: gas moves from the small to the large, no faster than the tolerance allows."""
     scene = anywhere(2, 100, 0.9, K=K, kappa=kappa, integrator=integrator, run=300, dt0=1e-6)
-    thermo = scene(base_lmp).thermo[0]
+    thermo = scene(lmp).thermo[0]
     assert thermo["f_gas[1]"][-1] > 0.0
     assert thermo["f_gas[4]"][-1] > thermo["f_gas[4]"][0]
 
@@ -134,13 +134,13 @@ def test_exchange_in_a_packing(base_lmp, kappa, K, integrator):
 MANY = 1000000 if FULL else 50000
 
 
-@pytest.mark.parametrize("integrator", INTEGRATORS)
-def test_many_steps_at_rest(base_lmp, integrator):
+@cases("integrator", INTEGRATORS)
+def test_many_steps_at_rest(lmp, integrator):
     """A packing at rest stays where it is."""
     steps = MANY // (1 if "abm" in integrator else 5)
     scene = anywhere(2, 12, 1.0, integrator=integrator, K=None, tol=1e-6, dtmax=0.1, run=steps,
                      every=steps // 10)
-    result = scene(base_lmp, timeout=600)
+    result = scene(lmp, timeout=600)
     energy, frames = result.thermo[0]["PotEng"], result.dump("dump")
     rest = slice(2, None)
     assert np.ptp(energy[rest]) <= 1e-12 * energy[-1]
@@ -150,11 +150,11 @@ def test_many_steps_at_rest(base_lmp, integrator):
     assert frames[-1].time == pytest.approx(0.1 * steps, rel=5e-2)    # shorter ones at the start
 
 
-@pytest.mark.parametrize("integrator", INTEGRATORS)
-def test_many_steps_of_exchange(base_lmp, integrator):
+@cases("integrator", INTEGRATORS)
+def test_many_steps_of_exchange(lmp, integrator):
     """Gas goes round for as long: its sum stays."""
     steps = MANY // (1 if "abm" in integrator else 5)
     scene = anywhere(3, 12, 0.9, spread=0.05, integrator=integrator, K=1e-9, kappa=1.0, dtmax=0.1,
                      run=steps, every=steps // 10, gas_limit=1e-16 * steps)
-    thermo = scene(base_lmp, timeout=600).thermo[0]
+    thermo = scene(lmp, timeout=600).thermo[0]
     assert thermo["Step"][-1] == steps

@@ -48,19 +48,19 @@ WHAT = {"length": (1, 0, 0), "time": (0, 1, 0), "stiffness": (0, 0, 1), "all": (
 
 @cases("what, power, dim, gas, integrator, drag",
        WHAT, [-30, 30, -100], [2, 3], [None, 0.3], INTEGRATORS, ["static", "neighbor"])
-def test_powers_of_two(base_lmp, what, power, dim, gas, integrator, drag):
+def test_powers_of_two(lmp, what, power, dim, gas, integrator, drag):
     scene = anywhere(dim, 60, 0.9, K=gas, kappa=1.0, integrator=integrator, run=100, spread=0.4,
                      pair=f"drag {drag}")
     first = [2.0**(np.sign(power) * 10 * k) for k in WHAT[what]]
     scale = [2.0**(power * k) for k in WHAT[what]]
     scene = scene.scaled(*first)
-    a, b = scene(base_lmp), scene.scaled(*scale)(base_lmp)
+    a, b = scene(lmp), scene.scaled(*scale)(lmp)
     assert_scaled(a, b, dim, scale, 0.0)
 
 
 @cases("what, power, dim, gas, integrator", WHAT, [-9, 9], [2, 3], [None, 0.3], INTEGRATORS)
-def test_powers_of_ten(base_lmp, what, power, dim, gas, integrator):
+def test_powers_of_ten(lmp, what, power, dim, gas, integrator):
     scene = anywhere(dim, 60, 0.9, K=gas, kappa=1.0, integrator=integrator, run=20)
     scale = [10.0**(power * k) for k in WHAT[what]]
-    a, b = scene(base_lmp), scene.scaled(*scale)(base_lmp)
+    a, b = scene(lmp), scene.scaled(*scale)(lmp)
     assert_scaled(a, b, dim, scale, SHORT)

@@ -27,7 +27,7 @@ def foam(dim, n, seed=7, spacing=None):
 
 
 def case(dim, before="", neighbor="0.3 bin", pair="", after="", gas="1e-2 0.1",
-         step="1e-3", run="run 0", every=20, map="map array"):
+         integrator="abm", step="1e-3", run="run 0", every=20, map="map array"):
     """Input of a coarsening foam; `before` stands before the box, `after` before the run."""
     return f"""
 units         lj
@@ -40,7 +40,7 @@ neighbor      {neighbor}
 pair_style    durian/foam 1.0 {pair}
 pair_coeff    * * 1.0
 fix           gas all foam/coarsen {gas}
-fix           step all foam/abm {step}
+fix           step all foam/{integrator} {step}
 compute       b all foam/bubble contacts area free vfilm vliquid rdot espring edurian
 compute       p all pressure NULL virial
 thermo_style  custom step atoms time pe c_p[*] f_gas[*] f_step[*]

@@ -18,7 +18,7 @@ def random_foam(dim):
     return [sites * spacing] * dim, x, rng.uniform(0.4, 1.6, len(x))
 
 
-def coarsen(lmp, dim, gas="0.1 liquid area", step="1e-3", pair="", every=10):
+def coarsen(lmp, dim, gas="0.1 liquid area", step="abm 1e-3", pair="", every=10):
     """Coarsen until a tenth of the bubbles is left: radii before, thermo and frames of the run."""
     box, x, R = random_foam(dim)
     result = lmp(HEAD.format(dim=dim) + f"""
@@ -27,7 +27,7 @@ pair_style    durian/foam 1.0 {pair}
 pair_coeff    * * 1.0
 neighbor      0.5 bin
 fix           gas all foam/coarsen 0.05 {gas} rmin {RMIN} nmin {len(R) // 10}
-fix           step all foam/abm {step}
+fix           step all foam/{step}
 thermo        1
 thermo_style  custom step atoms f_gas[2] f_gas[5] f_gas[7] f_gas[8]
 {PRECISE}
@@ -47,11 +47,14 @@ def gas_of(frame, dim):
 EACH_STEP, IN_ALL = 1e-14, 1e-12
 
 
-@pytest.mark.parametrize("gas", ["0.1 liquid area", "0.1 liquid lsw", "0.0",
-                                 "0.3 film no"])
-@pytest.mark.parametrize("dim", [2, 3])
-def test_gas_and_bubbles_are_conserved(each_lmp, dim, gas):
-    R, thermo, frames = coarsen(each_lmp, dim, gas)
+ALL = [(dim, gas, "abm 1e-3") for dim in (2, 3)
+       for gas in ("0.1 liquid area", "0.1 liquid lsw", "0.0", "0.3 film no")]
+ALL += [(2, "0.1 liquid area", "rkc 1e-3"), (3, "0.1 liquid lsw", "rkc 1e-4")]
+
+
+@pytest.mark.parametrize("dim, gas, step", ALL)
+def test_gas_and_bubbles_are_conserved(each_lmp, dim, gas, step):
+    R, thermo, frames = coarsen(each_lmp, dim, gas, step)
     n = len(R)
     left, phi, removed, removed_gas = (thermo[f"f_gas[{k}]"] for k in (2, 5, 7, 8))
     assert left[-1] <= n // 10
@@ -76,7 +79,8 @@ def test_gas_and_bubbles_are_conserved(each_lmp, dim, gas):
 
 
 # (neighbor drag needs many more steps when the tolerance is tight)
-@pytest.mark.parametrize("pair, step", [("drag static", "1e-3"), ("drag neighbor", "1e-2")])
+@pytest.mark.parametrize("pair, step", [("drag static", "abm 1e-3"), ("drag neighbor", "abm 1e-2"),
+                                        ("drag static", "rkc 1e-4")])
 def test_rates_are_evaluated_again_after_a_removal(each_lmp, pair, step):
     """Rates from before a removal no longer add up to zero: the next step would lose gas.
 
@@ -97,7 +101,7 @@ def test_drift_of_the_options_kept_for_comparison(lmp):
     Measured, with nine tenths of the bubbles gone: radius 5e-5, source 6e-4.
     """
     def drift(step):
-        R, thermo, _ = coarsen(lmp, 2, step=f"1e-3 {step}", every=100000)
+        R, thermo, _ = coarsen(lmp, 2, step=f"abm 1e-3 {step}", every=100000)
         assert np.all(thermo["f_gas[2]"] + thermo["f_gas[7]"] == len(R))
         return np.max(np.abs(thermo["f_gas[5]"] / thermo["f_gas[5]"][0] - 1))
 

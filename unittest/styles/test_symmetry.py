@@ -76,17 +76,25 @@ RUN_VARIANTS = ["2 ranks", "4 ranks", "8 ranks", "newton off, 2 ranks", "tiled",
                 "headroom 1", "no map, unsorted"]
 
 
-@pytest.mark.parametrize("name", RUN_VARIANTS)
-def test_run(each_lmp, base, name):
+# steps of rkc are longer: near foams part after fewer of them
+INTEGRATORS = {"abm": {}, "rkc": dict(integrator="rkc", run="run 60", every=10)}
+RUNS = [("abm", name) for name in RUN_VARIANTS] + [("rkc", name) for name in ("4 ranks", "tiled")]
+
+
+@pytest.mark.parametrize("integrator, name", RUNS)
+def test_run(each_lmp, base, integrator, name):
     """A coarsening run in which bubbles vanish: the same steps, the same bubbles."""
-    changed = variant_of(name, each_lmp)
-    plain = base(2, 16, **RUN)
+    changed, run = variant_of(name, each_lmp), {**RUN, **INTEGRATORS[integrator]}
+    plain = base(2, 16, **run)
     assert plain.thermo[0]["Atoms"][-1] < plain.thermo[0]["Atoms"][0] - 10
-    variant = {**RUN, **changed, "run": changed.get("run", "") + "\n" + RUN["run"]}
+    variant = {**run, **changed, "run": changed.get("run", "") + "\n" + run["run"]}
     ranks = variant.pop("ranks", 1)
     x, R, v, box = foam(2, 16)
     other = each_lmp(case(2, **variant), files={"data": data_file([box] * 2, x, R, v)}, ranks=ranks)
     assert_same_run(plain.thermo[0], other.thermo[0])
+    for count in ("f_step[3]", "f_step[4]", "f_step[5]", "f_step[7]"):    # stages of rkc
+        assert count not in plain.thermo[0] or np.array_equal(plain.thermo[0][count],
+                                                              other.thermo[0][count]), count
     for a, b in zip(plain.dump("dump"), other.dump("dump")):
         assert np.array_equal(a["id"], b["id"])
         assert_same_state(state(a, 2), state(b, 2), box, SHORT)
@@ -119,9 +127,9 @@ def test_skin(lmp, base, neighbor):
 # ---- the box ------------------------------------------------------------------------------------
 
 def compare_boxes(lmp, base, dim, move, turn=lambda vector: vector, shift=0.0, tilt=None,
-                  ranks=1):
+                  ranks=1, **integrator):
     """Run the foam and a copy of it that `move` has put elsewhere in its box."""
-    keywords = dict(run="run 60", every=30)
+    keywords = {**dict(run="run 60", every=30), **integrator}
     plain = base(dim, SIZE[dim], **keywords)
     x, R, v, box = foam(dim, SIZE[dim])
     data = data_file([box] * dim, move(x, box) % box, R, turn(v))
@@ -144,8 +152,12 @@ def permuted(vector):
     return vector[:, [2, 0, 1]]
 
 
-def test_rotated(lmp, base):
-    compare_boxes(lmp, base, 2, lambda x, box: quarter_turn(x) + [box, 0], quarter_turn)
+# the first direction of the power iteration of rkc is another one in a foam that is turned
+@pytest.mark.parametrize("integrator", [{}, dict(integrator="rkc", step="1e-3 spectral 5",
+                                                 run="run 30", every=15)], ids=["abm", "rkc"])
+def test_rotated(lmp, base, integrator):
+    compare_boxes(lmp, base, 2, lambda x, box: quarter_turn(x) + [box, 0], quarter_turn,
+                  **integrator)
 
 
 def test_permuted_axes(lmp, base):
@@ -196,17 +208,19 @@ INTERRUPTED = {
     "never sorted": dict(sort="0 0.0"),
     "other forces": dict(extra=PUSH),    # fixes that come after the integrator
     "3D": dict(dim=3),
+    "rkc": dict(integrator="rkc"),
+    "rkc, neighbor, other forces": dict(integrator="rkc", pair="drag neighbor", extra=PUSH),
     "neighbor 3D sorted often": dict(dim=3, pair="drag neighbor", sort="20 0.0"),
 }
 
 
-def continued(pair="", gas="3e-2 0.1", step="1e-3", sort="1000 0.0", dim=2, extra=""):
+def continued(pair="", gas="3e-2 0.1", integrator="abm", step="1e-3", sort="1000 0.0", dim=2, extra=""):
     return f"""
 atom_modify   sort {sort}
 read_restart  state
 neighbor      0.3 bin
 fix           gas all foam/coarsen {gas}
-fix           step all foam/abm {step}
+fix           step all foam/{integrator} {step}
 compute       b all foam/bubble contacts area free vfilm vliquid rdot espring edurian
 compute       p all pressure NULL virial
 thermo_style  custom step atoms time pe c_p[*] f_gas[*] f_step[*]
@@ -231,7 +245,7 @@ def test_restart_is_bitwise(lmp, name, way, ranks):
     how = dict(INTERRUPTED[name])
     dim = how.get("dim", 2)
     x, R, v, box = foam(dim, 10 if dim == 2 else SIZE[3], seed=11)
-    keywords = {k: how[k] for k in ("pair", "step") if k in how}
+    keywords = {k: how[k] for k in ("pair", "integrator", "step") if k in how}
     keywords.update(gas=how.get("gas", "3e-2 0.1"), every=10)
     sort = f"atom_modify sort {how.get('sort', '1000 0.0')}\n" + how.get("extra", "")
     if way == "restart":    # in mid-run
@@ -283,7 +297,8 @@ def test_restart_is_bitwise(lmp, name, way, ranks):
 
 
 @pytest.mark.parametrize("name, ranks", [("static", 1), ("static", 2), ("neighbor", 2),
-                                         ("source", 1), ("neighbor without drift", 1)])
+                                         ("source", 1), ("neighbor without drift", 1),
+                                         ("rkc", 1)])
 def test_run_in_pieces(lmp, name, ranks):
     """Two runs are one run.  Setting up a run puts the bubbles in order; that happens in the one
     run too where it writes a restart file, and then both agree bit by bit."""
@@ -320,12 +335,13 @@ def test_run_split(lmp, base, split):
 # ---- back ends ----------------------------------------------------------------------------------
 
 @pytest.mark.parametrize("name", [name for name in BACKENDS if name != "wheel"])
-@pytest.mark.parametrize("dim, ranks", [(2, 1), (2, 2), (3, 1), (3, 2)])
-def test_backends_agree(backends, base, dim, ranks, name):
+@pytest.mark.parametrize("dim, ranks, integrator", [(2, 1, "abm"), (2, 2, "abm"), (3, 1, "abm"),
+                                                    (3, 2, "abm"), (3, 2, "rkc")])
+def test_backends_agree(backends, base, dim, ranks, integrator, name):
     """The stable release and the newest one, built by different compilers, base and KOKKOS styles
     give the same foam."""
     x, R, v, box = foam(dim, SIZE[dim])
-    keywords = dict(gas="3e-2 0.1", run="run 100", every=50)
+    keywords = dict(gas="3e-2 0.1", integrator=integrator, run="run 100", every=50)
     other = backends(name)(case(dim, **keywords),
                            files={"data": data_file([box] * dim, x, R, v)}, ranks=ranks)
     plain = base(dim, SIZE[dim], **keywords)
