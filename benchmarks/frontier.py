@@ -223,6 +223,7 @@ def panel(ax, group, column, when):
                     fontsize=9)
         ax.set_ylim(bottom=min(*lowest, spread if spread > FAR * min(lowest) else 1.0) / 3.0)
     ax.grid(alpha=0.25, which="major", lw=0.5)
-    ax.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+    low, high = ax.get_xlim()
+    ax.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5) if high < 40 * low else (1,)))
     ax.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     ax.xaxis.set_minor_formatter(NullFormatter())

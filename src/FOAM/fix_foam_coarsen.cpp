@@ -134,6 +134,7 @@ void FixFoamCoarsen::pre_exchange()
 void FixFoamCoarsen::post_run()
 {
   take_out_dead();
+  critical_radius();    // if it is on a device, it is there no longer than the integrator
 }
 
 void FixFoamCoarsen::take_out_dead()

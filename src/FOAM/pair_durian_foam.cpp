@@ -334,6 +334,16 @@ void PairDurianFoam::check_images(double largest)
                domain->nonperiodic == 2 ? "; a box that shrinks around so few bubbles needs boundary m "
                                           "instead of s, or neighbor nsq"
                                         : "");
+
+  // To count a pair of a bubble and its own image once, LAMMPS' lists in a tilted box compare their
+  // places, and take those for equal that differ by less than this
+
+  const double blurred = 0.01 * force->angstrom;
+  if (domain->triclinic && force->newton_pair && 2.0 * largest >= side && side < blurred)
+    error->all(FLERR,
+               "Pair style durian/foam: contacts of bubbles with their own images in a triclinic box "
+               "with sides below {} need newton off, or another unit of length",
+               blurred);
 }
 
 // In 2D the box has a thickness that means nothing, except that LAMMPS refuses to sort bubbles into
@@ -484,6 +494,16 @@ void PairDurianFoam::read_restart_settings(FILE *fp)
   ain_fixed = values[4] != 0.0;
   neighbor_drag = values[5] != 0.0;
   headroom = values[6];
+
+  // LAMMPS reads what is there, be it a damaged file or that of another version of this style
+
+  const bool sound = mu0 > 0.0 && rin >= 0.0 && ain >= 0.0 && headroom >= 1.0;
+  if (!sound || !std::isfinite(mu0 + rin + ain + headroom))
+    error->all(FLERR,
+               "Pair style durian/foam: the restart file has mu0 {} (must be > 0), mean radius {} and "
+               "mean surface {} (must be >= 0), headroom {} (must be >= 1): it is damaged, or of "
+               "another version of this style",
+               mu0, rin, ain, headroom);
 }
 
 void PairDurianFoam::write_data(FILE *fp)

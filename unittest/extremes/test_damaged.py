@@ -4,9 +4,11 @@ FOAM_EXTREME_CASES is the number of random cases, FOAM_EXTREME_SEED the first of
 that fails is printed with its seed and all that is needed to repeat it.
 """
 
+import math
 import os
 import random
 import re
+import struct
 
 import pytest
 
@@ -46,7 +48,7 @@ def bad_data():
     yield BUBBLE, f"{BUBBLE}\n4 1 1 1 5 5 0", "Unknown identifier"
 
     for n in "2", "4", "0", "-3", "3.5", "three", "1e1", "99999999999999999999", "3000000000":
-        yield "3 atoms", f"{n} atoms", "Unknown identifier|assign all atoms|Unexpected end|Integer"
+        yield "3 atoms", f"{n} atoms", "Unknown identifier|assign all atoms|Unexpected end|Integer|too big"
     for n in "0", "-1", "one":
         yield "1 atom types", f"{n} atom types", "atom type|Unknown identifier"
     for box in "10 0", "0 0", "0 nan", "0", "0 1 2":
@@ -135,6 +137,15 @@ def state(lammps):
 def test_restart_cut_short(lammps, state):
     for end in [*range(0, 30), *range(30, len(state), 40), len(state) - 1]:
         refused(lammps, go_on(AGAIN), {"state": state[:end]}, ["[Rr]estart file|end of file"])
+
+
+@pytest.mark.parametrize("headroom", [0.5, -1.0, math.nan, math.inf])
+def test_restart_with_wrong_numbers(lammps, state, headroom):
+    """Those that the pair style wrote: 1.2 is its headroom."""
+    known, wrong = struct.pack("d", 1.2), struct.pack("d", headroom)
+    assert state.count(known) == 1
+    refused(lammps, go_on(AGAIN), {"state": state.replace(known, wrong)},
+            ["durian/foam", "headroom", ">= 1", "damaged"])
 
 
 NEW_PAIR = "pair_style durian/foam 3 drag neighbor\npair_coeff * * 2"

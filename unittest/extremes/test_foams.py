@@ -189,6 +189,37 @@ def test_not_periodic(lmp, dim, boundary, integrator):
         assert f[column] == pytest.approx(g[column], rel=1e-9), column
 
 
+@cases("integrator", INTEGRATORS)
+def test_own_images_in_a_small_tilted_box(lmp, integrator):
+    """A thin box in units of a thousandth: right with newton off; with newton on, where LAMMPS' lists
+    would count contacts with the own images twice, refused."""
+    scene = anywhere(3, 12, 1.0, shape=[1.0, 1.0, 0.05], K=None, integrator=integrator, run=30,
+                     before="newton off")
+    scene = scene.but(tilt=(0.3 * scene.box[0], 0.0, 0.0))
+    assert scene.box[2] < 2 * scene.R.min()
+    a, b = last(scene(lmp)), last(scene.scaled(2.0**-10)(lmp))
+    assert np.array_equal(a.array("x", "y", "z"), b.array("x", "y", "z") * 2.0**10)
+    result = scene.but(before="newton on").scaled(2.0**-10)(lmp, check=False, timeout=30)
+    assert result.returncode > 0 and "newton" in result.errors[0]
+
+
+CHANGES = {"shear": "xy variable v_shift v_rate", "squash": "x scale 0.02",
+           "press": "x scale 0.1 y scale 0.1", "blow up": "x scale 10 y scale 10"}
+
+
+@cases("change, integrator", CHANGES, INTEGRATORS)
+def test_moving_box(lmp, change, integrator):
+    """Sheared 12 times its width, blown up, squashed until bubbles span the box: gas stays."""
+    fix = f"""
+variable shift equal 0.5*f_step[1]*ly
+variable rate equal 0.5*ly
+fix box all deform 1 {CHANGES[change]} remap x"""
+    scene = anywhere(2, 100, 0.9, K=1e-3, integrator=integrator, run=500, every=50, dtmax=0.05,
+                     tilt=(0, 0, 0), after=fix, box_moves=True)
+    result = scene(lmp)
+    assert ("spans the box" in result.screen) == (change in ("squash", "press"))
+
+
 def test_box_without_width(base_lmp):
     """One bubble in a box that shrinks around it: a clear stop, that names the way out."""
     alone = Scene([[5.0, 5.0]], [1.0], [10.0, 10.0], boundary="s s p", K=None)

@@ -198,7 +198,7 @@ def bad_scripts():
         script(pair="pair_style hybrid durian/foam 1 zero 2", coeff="pair_coeff * * durian/foam"), \
         "durian/foam", "sigma0", "a number >= 0"
     yield "bonds", script(atom="atom_style hybrid sphere 1 bond", read=BOND), \
-        "Fix foam/abm", "bonds", "not allowed"
+        "Fix foam/abm .*bonds.* not allowed|MOLECULE package which is not enabled"
     yield "random forces", with_line("fix l all langevin 1 1 1 3"), "Fix foam/abm", "fix langevin"
     yield "radii of another fix", with_line("variable a equal 2\nfix a all adapt 1 atom diameter v_a"), \
         "Fix foam/abm", "fix adapt", "radii"
