@@ -20,6 +20,7 @@ FixStyle(foam/rkc,FixFoamRKC);
 
 #include "atom.h"
 #include "domain.h"
+#include "modify.h"
 
 #include <algorithm>
 #include <cmath>
@@ -149,8 +150,11 @@ template <int D, class Space> void FixFoamRKC::estimate_in(Space &here)
     if (most > 0.0) take(here.totals(nlocal, JoinRates<D, B>{d, direction_most / most}));
   }
 
+  // Forces may depend on more than places: l, and those of other fixes on steps or velocities, are not
+  // what they were when F_0 was evaluated
+
   Stages y{};
-  if (lagged()) {    // l is not that of the last step
+  if (lagged() || modify->n_pre_force || modify->n_post_force_any) {
     y = stages(here);
     here.for_each(nlocal, StepAside<D, B>{state(here), 0.0});
     evaluate();

@@ -83,9 +83,11 @@ class SharedProcess:
                   if (directory / "screen").exists() else "")
         if closed == HANG:
             end.crash = f"did not end within {LIMIT} s"
+        elif closed is None and error and "/FOAM/" not in error:
+            pass
         elif "Sanitizer" in said or "runtime error" in said:
             end.crash = said
-        elif closed is None and (not error or "/FOAM/" in error):
+        elif closed is None:
             end.crash = f"ended the process with status {self.process.wait()}: {said[-3000:]}"
         if end.crash or closed is None:
             self.stop()
