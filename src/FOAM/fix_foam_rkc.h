@@ -144,6 +144,11 @@ template <int D, class Space> void FixFoamRKC::estimate_in(Space &here)
   };
   bool kept = direction_size > 0.0 && std::isfinite(direction_size);
   if (!kept) any_direction();
+  if (kept && rejected != rejected_then) {    // perhaps by an instability
+    const Direction<B> d{state(here), q_unit};
+    const double most = reduce(here.totals(nlocal, LargestRate<D, B>{d})).max[COMPONENT];
+    if (most > 0.0) take(here.totals(nlocal, JoinRates<D, B>{d, direction_most / most}));
+  }
 
   // Forces may depend on more than places: l, and those of other fixes on steps or velocities, are not
   // what they were when F_0 was evaluated
@@ -156,14 +161,19 @@ template <int D, class Space> void FixFoamRKC::estimate_in(Space &here)
     here.for_each(nlocal, KeepVelocities<D, B>{rates<D>(here), {y.x_before[0], y.x_before[1],
                                                                 y.x_before[2]}});
   }
+
+  // In a large foam the mode that relaxes fastest is that of a few bubbles, and the rest, which makes up
+  // the size of the direction, hides it for long; by the largest component it shows sooner.
+
   for (int n = 0; n < ITERATIONS && direction_most > 0.0; n++) {
     const double before = radius, amount = aside * Rin / direction_most;
+    const double most = direction_most / direction_size;
     here.for_each(nlocal, StepAside<D, B>{state(here), amount});
     evaluate();
     take(here.totals(nlocal, TakeDirection<D, B>{{state(here), q_unit}, rates<D>(here),
                                                  {y.x_before[0], y.x_before[1], y.x_before[2]},
                                                  amount * direction_size}));
-    radius = direction_size;
+    radius = std::max(direction_size, direction_most / most);
     if (kept && !(radius > 0.0)) any_direction();    // those that the last one moved are gone
     kept = false;
     if (std::fabs(radius - before) <= ENOUGH * radius) break;

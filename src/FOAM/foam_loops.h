@@ -627,7 +627,6 @@ template <class B> struct Direction {
     if (s.grows) add(s.qdot_before[i] / q_unit, all);
   }
 
- private:
   FOAM_FUNCTION static void add(double d, FoamTotals &all)
   {
     all.sum[DIRECTION] += d * d;
@@ -654,6 +653,33 @@ template <int D, class B> struct AnyDirection {
     const double golden = 0.6180339887498949, root = 0.7548776662466927;
     const double turns = golden * d.s.b.tag(i) + root * (k + 1);
     return 2.0 * (turns - std::floor(turns)) - 1.0;
+  }
+};
+
+// The rates of a state that has become unstable are those of the mode that made it so: they join the
+// direction, as large as it is
+
+template <int D, class B> struct LargestRate {
+  static constexpr const char *NAME = "foam: largest rate";
+  Direction<B> d;
+  FOAM_FUNCTION void operator()(int i, FoamTotals &all) const
+  {
+    const State<B> &s = d.s;
+    for (int k = 0; k < D; k++) d.add(s.v(i, k), all);
+    if (s.grows) d.add(s.qdot[i] / d.q_unit, all);
+  }
+};
+
+template <int D, class B> struct JoinRates {
+  static constexpr const char *NAME = "foam: join rates";
+  Direction<B> d;
+  double factor;
+  FOAM_FUNCTION void operator()(int i, FoamTotals &all) const
+  {
+    const State<B> &s = d.s;
+    for (int k = 0; k < D; k++) s.v_before[k][i] += factor * s.v(i, k);
+    if (s.grows) s.qdot_before[i] += factor * s.qdot[i];
+    d.template measure<D>(i, all);
   }
 };
 

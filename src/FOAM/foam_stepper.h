@@ -73,16 +73,19 @@ FOAM_FUNCTION double correct(double y, double now, double predicted, double h)
   return y + 0.5 * h * (predicted + now);
 }
 
-// Error of a step, in units of <R_in>: the largest distance of corrector and predictor of any
-// component (centre and radius) of any bubble, or the root mean square of all of them
+// Error of a step, in units of <R_in>: the largest error of any component (centre and radius) of any
+// bubble, or the root mean square of all of them.  In the latter nobody would notice a bubble that goes
+// astray among many, so none may be wrong by more than OUTLIER times the tolerance.
 
 enum class Norm { MAX, RMS };
+constexpr double OUTLIER = 100.0;
 
 FOAM_FUNCTION double step_error(Norm norm, double largest, double squares, double components,
                                 double Rin)
 {
   if (norm == Norm::MAX) return largest / Rin;
-  return components > 0.0 ? std::sqrt(squares / components) / Rin : 0.0;
+  const double mean = components > 0.0 ? std::sqrt(squares / components) : 0.0;
+  return (largest > OUTLIER * mean ? largest / OUTLIER : mean) / Rin;
 }
 
 // Step control.  The distance of corrector and predictor is of order h^3 (h^2 after an

@@ -63,6 +63,7 @@ def random_scene(seed):
              f"atom_modify sort {one_of(0, 10, 1000)} 0.0"]
     if boundary == "p p p" and min(box) > 5 * R.max() + 10 and random.random() < 0.3:
         lines += ["comm_style tiled"]
+    run = one_of(60, 60, 600)
     sigma0, mu0 = one_of(1.0, 1.0, 1.0, 0.0, between(1e-6, 1e6)), one_of(1.0, between(1e-6, 1e6))
     relaxes = mu0 / sigma0 if sigma0 else 1.0    # the time in which springs do
     scene = Scene(
@@ -76,7 +77,7 @@ def random_scene(seed):
         pair=f"drag {drag} headroom {between(1.0, 3.0):.6g}", skin=one_of(0.3, between(0.001, 10.0)),
         neighbor=one_of("bin", "bin", "bin", "nsq", "multi"), before="\n".join(lines),
         gas_limit=np.inf if "radius" in scheme or "source" in scheme else 1e-12,
-        run=60, every=20, gas_first=bool(random.integers(2)))
+        run=run, every=run // 3, gas_first=bool(random.integers(2)))
     return scene, 1 + ranks.count("2")
 
 

@@ -49,7 +49,7 @@ class Foam:
         self.fixes = {}
         for words in map(str.split, commands.splitlines()):
             if words and words[0] == "fix":
-                n = {"foam/abm": 5, "foam/coarsen": 6}[words[3]]
+                n = {"foam/abm": 5, "foam/rkc": 5, "foam/coarsen": 6}[words[3]]
                 self.fixes[words[3]] = (words[4:n], dict(zip(words[n::2], words[n + 1::2])))
                 if words[1] == "test":
                     self.tested = words[3]
@@ -117,8 +117,10 @@ class Foam:
         return v, Vdot + c * weight * (1 / self.rho - 1 / R)
 
     def integrate(self, dt, runs):
-        """Adaptive Adams-Bashforth-Moulton steps; the global vectors of both fixes."""
-        (tol,), abm = self.fixes["foam/abm"]
+        """Adaptive steps, Adams-Bashforth-Moulton's or Runge-Kutta-Chebyshev's (static drag, and the
+        spectral radius given); the global vectors of both fixes."""
+        style = "foam/rkc" if "foam/rkc" in self.fixes else "foam/abm"
+        (tol,), abm = self.fixes[style]
         options = self.fixes.get("foam/coarsen", (0, {}))[1]
         tol, limit = float(tol), float(abm.get("dtmax", math.inf))
         source, remove = abm.get("scheme") == "source", abm.get("drift") == "remove"
@@ -128,8 +130,14 @@ class Foam:
         ball = np.pi if self.dim == 2 else 4 * np.pi / 3
         t, h, before, accepted, refused, count = 0.0, float(abm.get("dt0", dt)), 0.0, 0, 0, 0
         removed, removed_gas, q, lag = 0, 0.0, self.R**power, self.v
+        v = qdot = v1 = qdot1 = past = None
+        radius, stages = float(abm.get("spectral", 0)), 0
+        if radius:
+            limit = min(limit, stable(200) / radius)
 
         def rates(lagged):
+            nonlocal count
+            count += 1
             v, Vdot = self.rates(lagged)
             drift = v.mean(axis=0) if remove else 0
             return v - drift, Vdot / self.surface() if power == 1 else Vdot / ball
@@ -140,28 +148,54 @@ class Foam:
             if gas:
                 self.R = np.maximum(q, 0)**(1 / power)
 
+        def predictor_corrector(step):
+            """The new state, and how far the corrector is from the predictor."""
+            nonlocal v1, qdot1
+            w = 0 if before == 0 else 1 if source else step / before
+            v_past, qdot_past = past if before else (0, 0)
+            x0, q0 = self.x, q
+            go_to(x0 + step * ((1 + w / 2) * v - w / 2 * v_past),
+                  q0 + step * ((1 + w / 2) * qdot - w / 2 * qdot_past))
+            guess = self.x, self.R
+            v1, qdot1 = rates(lag)
+            go_to(x0 + step / 2 * (v1 + v), q0 + step / 2 * (qdot1 + qdot))
+            return self.x - guess[0], self.R - guess[1]
+
+        def stages_of(step):
+            """The new state by as many stages as the step needs, and the error at the last but one."""
+            nonlocal stages, v1, qdot1
+            stages = next(s for s in range(3, 201) if stable(s) >= step * radius)
+            first, others = chebyshev(stages)
+            y0, f0 = (self.x, q), (v, qdot)
+            older = y0
+            go_to(*(y + step * first * f for y, f in zip(y0, f0)))
+            for mu, nu, m, g, c in others:
+                y1, R1 = (self.x, q), self.R
+                v1, qdot1 = f1 = rates(lag)
+                E = [(0.8 * (y - z) + 0.4 * c * step * (f + g1)) / c**3
+                     for y, z, f, g1 in zip(y0, y1, f0, f1)]
+                error = E[0], np.maximum(y1[1] + E[1], 0)**(1 / power) - R1
+                go_to(*(y + mu * (z - y) + nu * (z2 - y) + step * (m * g1 + g * f)
+                        for y, z, z2, f, g1 in zip(y0, y1, older, f0, f1)))
+                older = y1
+            return error
+
+        attempt = {"foam/abm": predictor_corrector, "foam/rkc": stages_of}
+
         for steps in runs:
             if not source or before == 0:        # LAMMPS computes the forces before each run
-                count += 1
                 v, qdot = rates(lag)
             for _ in range(steps):
                 x0, q0, again = self.x, q, False
                 lag = v if source else (v + lag) / 2
                 while True:
                     step = min(h, limit)
-                    w = 0 if before == 0 else 1 if source else step / before
-                    v_past, qdot_past = past if before else (0, 0)
-                    go_to(x0 + step * ((1 + w / 2) * v - w / 2 * v_past),
-                          q0 + step * ((1 + w / 2) * qdot - w / 2 * qdot_past))
-                    guess = self.x, self.R
-                    v1, qdot1 = rates(lag)
-                    count += 1
-                    go_to(x0 + step / 2 * (v1 + v), q0 + step / 2 * (qdot1 + qdot))
-                    errors = np.abs(np.append(self.x - guess[0], self.R - guess[1])) / self.rin
+                    errors = np.abs(np.concatenate(
+                        [E.ravel() for E in attempt[style](step)])) / self.rin
                     if not gas:
                         errors = errors[:self.x.size]
                     error = errors.max()
-                    if abm.get("norm") == "rms":
+                    if abm.get("norm", "max" if source else "rms") == "rms":
                         error = math.sqrt((errors**2).mean())
                     good = error <= tol
                     factor = min(max(0.9 * (tol / error)**(1 / 3), 0.2), 1.9)
@@ -184,16 +218,18 @@ class Foam:
                                                                          qdot, lag))
                     past = past[0][live], past[1][live]
                 if not source:
-                    count += 1
                     v, qdot = rates(lag)
         self.v = v
+        vectors = {style: [t, before, accepted, refused, count, error]}
+        if radius:
+            vectors[style] += [stages, radius]
         if not gas:
-            return {"foam/abm": [t, before, accepted, refused, count, error]}
+            return vectors
         tau = float(self.fixes["foam/coarsen"][0][0]) * t / self.rin**2
         phi = (ball * self.R**self.dim).sum() / self.L.prod()
-        return {"foam/abm": [t, before, accepted, refused, count, error],
-                "foam/coarsen": [tau, len(self.R), self.R.mean() / self.rin,
-                                 self.R.max() / self.rin, phi, self.rho, removed, removed_gas]}
+        vectors["foam/coarsen"] = [tau, len(self.R), self.R.mean() / self.rin,
+                                   self.R.max() / self.rin, phi, self.rho, removed, removed_gas]
+        return vectors
 
     def verlet(self, dt, steps):
         """Newton's equation with the bubbles' masses, as the tester of pair styles wants it."""
@@ -202,6 +238,28 @@ class Foam:
             self.v = self.v + dt / 2 * self.springs()[0] / mass
             self.x = self.x + dt * self.v
             self.v = self.v + dt / 2 * self.springs()[0] / mass
+
+
+def stable(s):
+    """Longest step of s stages, times the spectral radius."""
+    return 2 / 3 * (1 - 2 / 15 * 2 / 13) * (s * s - 1)
+
+
+def chebyshev(s):
+    """Of Y_1, h F_0; of Y_j: Y_{j-1} - Y_0, Y_{j-2} - Y_0, h F_{j-1}, h F_0, and c_{j-1}.  T_j(w) is
+    cosh(j arcosh w)."""
+    w = 1 + 2 / 13 / s**2
+    angle, j = math.acosh(w), np.arange(s + 1)
+    T = np.cosh(j * angle)
+    slope = j * np.sinh(j * angle) / math.sinh(angle)
+    curve = (j**2 * T - w * slope) / math.sinh(angle)**2
+    w1 = slope[s] / curve[s]
+    b = np.append([1.0, 1.0], curve[2:] / slope[2:]**2)
+    b[:2] = b[2]
+    place = np.append([0, b[1] * w1], w1 * curve[2:] / slope[2:])
+    return b[1] * w1, [(2 * b[k] * w / b[k - 1], -b[k] / b[k - 2], 2 * b[k] * w1 / b[k - 1],
+                        -(1 - b[k - 1] * T[k - 1]) * 2 * b[k] * w1 / b[k - 1], place[k - 1])
+                       for k in range(2, s + 1)]
 
 
 def numbers(text):

@@ -90,7 +90,7 @@ def test_film_exchange_of_two_bubbles(lmp, dim, integrator, case):
         assert np.array_equal(frame.array(*["xu", "yu", "zu"][:dim]), x)    # without springs
         return np.max(np.abs(frame["radius"] - exact))
 
-    n = 1000 if integrator == "abm" else 100    # rounding is that of all stages, each small
+    n = 1000 if integrator == "abm" else 100    # 1e5 stages round off to 1e-13
     coarse, fine = error(n), error(16 * n)
     assert fine < 1e-8
     assert order(coarse, fine, 16) == pytest.approx(2, abs=0.05)
