@@ -21,6 +21,8 @@ import hashlib
 import os
 import re
 import shlex
+import signal
+import sys
 import time
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -406,6 +408,7 @@ def measure_models(args):
 
 def main():
     args = arguments()
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))     # then the LAMMPS in work is ended, too
     for directory in (args.out, args.cache):
         directory.mkdir(parents=True, exist_ok=True)
     if args.models:
