@@ -78,7 +78,10 @@ void FixFoamIntegrate::settings(int narg, char **arg, const FoamInput::Keywords 
          norm = v.one_of({"max", "rms"}) == 1 ? Foam::Norm::RMS : Foam::Norm::MAX;
          norm_given = true;
        }},
-      {"drift", [&](const Value &v) { drift_removed = v.one_of({"keep", "remove"}) == 1; }}};
+      {"drift", [&](const Value &v) {
+         drift_removed = v.one_of({"keep", "remove"}) == 1;
+         drift_given = true;
+       }}};
   all.insert(all.end(), own.begin(), own.end());
   input.keywords(all);
 }
@@ -165,8 +168,10 @@ void FixFoamIntegrate::init()
         error->all(FLERR, "Fix {}: fix {} also changes radii, which are those of fix foam/coarsen",
                    style, ifix->style);
 
-  if (pair->neighbor_drag && !drift_removed && domain->xperiodic && domain->yperiodic &&
-      domain->zperiodic && comm->me == 0)
+  const bool drifts =
+      pair->neighbor_drag && domain->xperiodic && domain->yperiodic && domain->zperiodic;
+  if (!drift_given) drift_removed = drifts && suffers_from_drift();
+  if (drifts && !drift_removed && comm->me == 0)
     error->warning(FLERR,
                    "Fix {}: with neighbor drag, nothing holds the foam as a whole in a "
                    "periodic box: it drifts, faster with more steps; see keyword drift",

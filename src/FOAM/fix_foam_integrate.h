@@ -84,7 +84,7 @@ class FixFoamIntegrate : public Fix {
   Foam::Norm norm = Foam::Norm::RMS;
   bool norm_given = false;
   double dt_start = 0.0, dt_limit = 0.0;    // 0: the defaults
-  bool drift_removed = false;
+  bool drift_removed = false, drift_given = false;
 
   // progress, kept in restarts
 
@@ -132,6 +132,7 @@ class FixFoamIntegrate : public Fix {
   virtual bool has_history() const { return true; }           // needs f_{n-1}
   virtual bool works() const { return false; }                // uses work
   virtual double stable_step() const;                         // no step may be longer
+  virtual bool suffers_from_drift() const { return false; }   // so it is removed unless kept
 
   // ---- what a scheme uses
 

@@ -40,6 +40,7 @@ class FixFoamRKC : public FixFoamIntegrate {
   bool has_history() const override { return false; }
   bool works() const override { return true; }
   double stable_step() const override;
+  bool suffers_from_drift() const override { return true; }    // which grows from stage to stage
   std::vector<double *> progress() override;
 
   // settings
