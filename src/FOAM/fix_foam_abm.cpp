@@ -17,13 +17,14 @@ FixFoamABM::FixFoamABM(LAMMPS *lmp, int narg, char **arg) : FixFoamIntegrate(lmp
 {
   settings(narg, arg, {{"scheme", [&](const FoamInput::Value &v) {
                           control.scheme = v.one_of({"standard", "source"}) == 1
-                              ? Foam::Scheme::SOURCE
-                              : Foam::Scheme::STANDARD;
+                                               ? Foam::Scheme::SOURCE
+                                               : Foam::Scheme::STANDARD;
                         }}});
   if (drift_removed && control.scheme == Foam::Scheme::SOURCE)
     error->all(FLERR, "Fix {}: drift remove goes with scheme standard, not with scheme source",
                style);
-  if (control.scheme == Foam::Scheme::SOURCE && !norm_given) norm = Foam::Norm::MAX;    // as in [L20]
+  if (control.scheme == Foam::Scheme::SOURCE && !norm_given)
+    norm = Foam::Norm::MAX;    // as in [L20]
   add_callbacks();
 }
 

@@ -38,14 +38,25 @@ FixFoamCoarsen::FixFoamCoarsen(LAMMPS *lmp, int narg, char **arg)
   K = input.argument("K").number(FoamInput::AT_LEAST, 0.0);
   kappa = input.argument("kappa").number(FoamInput::AT_LEAST, 0.0);
   input.keywords(
-      {{"rmin", [&](const Value &v) { rmin = v.number(FoamInput::AT_LEAST, 0.0); }},
-       {"film", [&](const Value &v) { through_films = v.one_of({"no", "yes"}); }},
+      {{"rmin",
+        [&](const Value &v) {
+          rmin = v.number(FoamInput::AT_LEAST, 0.0);
+        }},
+       {"film",
+        [&](const Value &v) {
+          through_films = v.one_of({"no", "yes"});
+        }},
        {"liquid",
         [&](const Value &v) {
           law = v.one_of({"area", "lsw"}) == 1 ? Foam::LiquidLaw::LSW : Foam::LiquidLaw::AREA;
         }},
-       {"nmin", [&](const Value &v) { nmin = v.count(); }},
-       {"ain", [&](const Value &v) { ain_given = v.number(FoamInput::ABOVE, 0.0); }}});
+       {"nmin",
+        [&](const Value &v) {
+          nmin = v.count();
+        }},
+       {"ain", [&](const Value &v) {
+          ain_given = v.number(FoamInput::ABOVE, 0.0);
+        }}});
 
   vector_flag = 1;
   size_vector = 8;

@@ -46,7 +46,7 @@ class FixFoamCoarsen : public Fix {
   Population population;
 
   bool ready() const { return pair; }    // since its first run
-  unsigned wanted() const;    // what the pair style has to gather for it
+  unsigned wanted() const;               // what the pair style has to gather for it
   Foam::LiquidLaw liquid_law() const { return law; }
 
   // the law for the sums over contacts that the pair style gathered last; on all ranks, as

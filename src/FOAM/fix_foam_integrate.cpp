@@ -66,12 +66,18 @@ void FixFoamIntegrate::settings(int narg, char **arg, const FoamInput::Keywords 
   control.tolerance = input.argument("tolerance").number(FoamInput::ABOVE, 0.0);
 
   FoamInput::Keywords all{
-      {"dt0", [&](const Value &v) { dt_start = v.number(FoamInput::ABOVE, 0.0); }},
-      {"dtmax", [&](const Value &v) { dt_limit = v.number(FoamInput::ABOVE, 0.0); }},
+      {"dt0",
+       [&](const Value &v) {
+         dt_start = v.number(FoamInput::ABOVE, 0.0);
+       }},
+      {"dtmax",
+       [&](const Value &v) {
+         dt_limit = v.number(FoamInput::ABOVE, 0.0);
+       }},
       {"variable",
        [&](const Value &v) {
-         variable = v.one_of({"volume", "radius"}) == 1 ? Foam::Variable::RADIUS
-                                                        : Foam::Variable::VOLUME;
+         variable =
+             v.one_of({"volume", "radius"}) == 1 ? Foam::Variable::RADIUS : Foam::Variable::VOLUME;
        }},
       {"norm",
        [&](const Value &v) {
@@ -106,7 +112,7 @@ FixFoamIntegrate::~FixFoamIntegrate()
 int FixFoamIntegrate::setmask()
 {
   return INITIAL_INTEGRATE | PRE_EXCHANGE | PRE_NEIGHBOR | POST_NEIGHBOR | FINAL_INTEGRATE |
-      END_OF_STEP;
+         END_OF_STEP;
 }
 
 void FixFoamIntegrate::init()
@@ -329,7 +335,8 @@ void FixFoamIntegrate::setup(int)
   double v_same = SAME * change.max[1], qdot_same = SAME * change.max[3];
   if (!evaluates_again()) {
     double tolerance = 10.0 * control.tolerance;
-    if (norm == Foam::Norm::RMS) tolerance *= std::sqrt(double(dim + 1) * atom->natoms);    // of one bubble
+    if (norm == Foam::Norm::RMS)
+      tolerance *= std::sqrt(double(dim + 1) * atom->natoms);    // of one bubble
     v_same += pair->neighbor_drag ? INFINITY : tolerance * pair->rin / natural_time();
     qdot_same += std::sqrt(tolerance) * change.max[3];    // contact area ~ sqrt(overlap)
   }
@@ -353,8 +360,10 @@ void FixFoamIntegrate::setup(int)
   ain_kept = pair->ain;
   if (h == 0.0) h = dt_start > 0.0 ? dt_start : update->dt;
   if (!(h > 0.0))
-    error->all(FLERR, "Fix {}: the first step must be > 0, not {}: see keyword dt0 and the "
-               "timestep command", style, h);
+    error->all(FLERR,
+               "Fix {}: the first step must be > 0, not {}: see keyword dt0 and the "
+               "timestep command",
+               style, h);
   update->update_time();
   set_timestep(MIN(h, largest_step()));
 
@@ -940,7 +949,7 @@ int FixFoamIntegrate::maxsize_restart()
 
 std::vector<double *> FixFoamIntegrate::progress()
 {
-  return {&time,     &h,           &h_before,   &h_last,       &accepted, &rejected,
+  return {&time,        &h,          &h_before,     &h_last,   &accepted, &rejected,
           &evaluations, &error_last, &bubbles_last, &rin_kept, &ain_kept, &have_lags};
 }
 

@@ -127,12 +127,12 @@ class FixFoamIntegrate : public Fix {
 
   // ---- what a scheme does
 
-  virtual FoamTotals attempt(double step, bool first) = 0;    // candidate, judged: see Foam::Judge
-  virtual bool evaluates_again() const { return true; }       // or has the next rates in work
-  virtual bool has_history() const { return true; }           // needs f_{n-1}
-  virtual bool works() const { return false; }                // uses work
-  virtual double stable_step() const;                         // no step may be longer
-  virtual bool suffers_from_drift() const { return false; }   // so it is removed unless kept
+  virtual FoamTotals attempt(double step, bool first) = 0;     // candidate, judged: see Foam::Judge
+  virtual bool evaluates_again() const { return true; }        // or has the next rates in work
+  virtual bool has_history() const { return true; }            // needs f_{n-1}
+  virtual bool works() const { return false; }                 // uses work
+  virtual double stable_step() const;                          // no step may be longer
+  virtual bool suffers_from_drift() const { return false; }    // so it is removed unless kept
 
   // ---- what a scheme uses
 

@@ -51,13 +51,13 @@ class FixFoamRKC : public FixFoamIntegrate {
   // Estimate of the spectral radius, by power iteration; its direction lies where other schemes
   // have f_{n-1}
 
-  double radius = 0.0;              // of the Jacobian, as estimated
-  double radius_step = -1.0;        // number of accepted steps when it was
-  double changed_step = 0.0;        // the same when the foam was another
-  double direction_size = 0.0;      // of the direction; 0: none yet
-  double direction_most = 0.0;      // its largest component
+  double radius = 0.0;            // of the Jacobian, as estimated
+  double radius_step = -1.0;      // number of accepted steps when it was
+  double changed_step = 0.0;      // the same when the foam was another
+  double direction_size = 0.0;    // of the direction; 0: none yet
+  double direction_most = 0.0;    // its largest component
   double stages_last = 0.0;
-  double rejected_then = 0.0;        // rejected steps when the radius was estimated
+  double rejected_then = 0.0;    // rejected steps when the radius was estimated
 
   // An underestimate by less than this does no harm
 
@@ -65,7 +65,8 @@ class FixFoamRKC : public FixFoamIntegrate {
   static constexpr int STEPS = 25, FEW = 10;    // between estimates; if one was rejected
   static constexpr int ITERATIONS = 50;         // of an estimate
   static constexpr double ENOUGH = 0.02;        // relative change of the last iteration
-  double aside = 1.0e-6;    // step aside of the bubble that moves most, in <R_in>: see FixFoamRKCKokkos
+  double aside =
+      1.0e-6;    // step aside of the bubble that moves most, in <R_in>: see FixFoamRKCKokkos
 
   double spectral_radius() const { return radius_given > 0.0 ? radius_given : MARGIN * radius; }
 
@@ -159,8 +160,8 @@ template <int D, class Space> void FixFoamRKC::estimate_in(Space &here)
     y = stages(here);
     here.for_each(nlocal, StepAside<D, B>{state(here), 0.0});
     evaluate();
-    here.for_each(nlocal, KeepVelocities<D, B>{rates<D>(here), {y.x_before[0], y.x_before[1],
-                                                                y.x_before[2]}});
+    here.for_each(nlocal, KeepVelocities<D, B>{rates<D>(here),
+                                               {y.x_before[0], y.x_before[1], y.x_before[2]}});
   }
 
   // In a large foam the mode that relaxes fastest is that of a few bubbles, and the rest, which makes up
@@ -171,7 +172,8 @@ template <int D, class Space> void FixFoamRKC::estimate_in(Space &here)
     const double most = direction_most / direction_size;
     here.for_each(nlocal, StepAside<D, B>{state(here), amount});
     evaluate();
-    take(here.totals(nlocal, TakeDirection<D, B>{{state(here), q_unit}, rates<D>(here),
+    take(here.totals(nlocal, TakeDirection<D, B>{{state(here), q_unit},
+                                                 rates<D>(here),
                                                  {y.x_before[0], y.x_before[1], y.x_before[2]},
                                                  amount * direction_size}));
     radius = std::max(direction_size, direction_most / most);

@@ -175,7 +175,8 @@ class FoamInput {
         found = true;
       }
       if (!found)
-        error->all(FLERR, "{}: unknown keyword {} (allowed are {})", style, shown(keyword), allowed);
+        error->all(FLERR, "{}: unknown keyword {} (allowed are {})", style, shown(keyword),
+                   allowed);
     }
   }
 

@@ -602,8 +602,8 @@ template <int D, class B> struct LastStage {
       add(stage_error(s.x_start[k][i], s.b.place(i, k), next.rates.velocity(i, k), s.v(i, k),
                       next.h, place));
     if (s.grows) {
-      const double error = stage_error(s.q_start[i], s.q[i], next.rates.qdot(i), s.qdot[i],
-                                       next.h, place);
+      const double error =
+          stage_error(s.q_start[i], s.q[i], next.rates.qdot(i), s.qdot[i], next.h, place);
       add(radius_of<D>(s.variable, s.q[i] + error) - s.b.radius(i));
     }
     next(i);
@@ -618,7 +618,7 @@ enum DirectionSum { DIRECTION };    // sum of squares, q in units of length
 enum DirectionMax { COMPONENT };
 
 template <class B> struct Direction {
-  State<B> s;    // in the place of f_{n-1}
+  State<B> s;       // in the place of f_{n-1}
   double q_unit;    // dq / dR at the mean radius
 
   template <int D> FOAM_FUNCTION void measure(int i, FoamTotals &all) const
@@ -689,8 +689,7 @@ template <int D, class B> struct StepAside {
   double amount;
   FOAM_FUNCTION void operator()(int i) const
   {
-    for (int k = 0; k < D; k++)
-      s.b.put(i, k, s.x_start[k][i] + amount * s.v_before[k][i]);
+    for (int k = 0; k < D; k++) s.b.put(i, k, s.x_start[k][i] + amount * s.v_before[k][i]);
     if (s.grows) {
       s.q[i] = s.q_start[i] + amount * s.qdot_before[i];
       s.b.radius(i) = radius_of<D>(s.variable, s.q[i]);

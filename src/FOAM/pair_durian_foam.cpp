@@ -229,14 +229,18 @@ void PairDurianFoam::settings(int narg, char **arg)
 
   neighbor_drag = false;
   headroom = 1.2;
-  input.keywords(
-      {{"drag", [&](const Value &v) { neighbor_drag = v.one_of({"static", "neighbor"}) == 1; }},
-       {"rin",
-        [&](const Value &v) {
-          rin = v.number(FoamInput::ABOVE, 0.0);
-          rin_fixed = true;
-        }},
-       {"headroom", [&](const Value &v) { headroom = v.number(FoamInput::AT_LEAST, 1.0); }}});
+  input.keywords({{"drag",
+                   [&](const Value &v) {
+                     neighbor_drag = v.one_of({"static", "neighbor"}) == 1;
+                   }},
+                  {"rin",
+                   [&](const Value &v) {
+                     rin = v.number(FoamInput::ABOVE, 0.0);
+                     rin_fixed = true;
+                   }},
+                  {"headroom", [&](const Value &v) {
+                     headroom = v.number(FoamInput::AT_LEAST, 1.0);
+                   }}});
 }
 
 void PairDurianFoam::coeff(int narg, char **arg)
@@ -259,9 +263,8 @@ void PairDurianFoam::coeff(int narg, char **arg)
       count++;
     }
   if (count == 0)
-    error->all(FLERR,
-               "Pair style durian/foam: pair_coeff {} {} names no pair of types I <= J", arg[0],
-               arg[1]);
+    error->all(FLERR, "Pair style durian/foam: pair_coeff {} {} names no pair of types I <= J",
+               arg[0], arg[1]);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -326,24 +329,26 @@ void PairDurianFoam::check_images(double largest)
   }
   constexpr double WIDEST = 100.0;
   if (images > MAXSMALLINT || 2.0 * largest > WIDEST * side)
-    error->all(FLERR,
-               "Pair style durian/foam: the largest bubble, of radius {:.8}, is too large for a box "
-               "whose shortest side is {:.8} ({:.3} images are within reach): radii must be in the "
-               "units of the box, and below {:.8}{}",
-               largest, side, images, 0.5 * WIDEST * side,
-               domain->nonperiodic == 2 ? "; a box that shrinks around so few bubbles needs boundary m "
-                                          "instead of s, or neighbor nsq"
-                                        : "");
+    error->all(
+        FLERR,
+        "Pair style durian/foam: the largest bubble, of radius {:.8}, is too large for a box "
+        "whose shortest side is {:.8} ({:.3} images are within reach): radii must be in the "
+        "units of the box, and below {:.8}{}",
+        largest, side, images, 0.5 * WIDEST * side,
+        domain->nonperiodic == 2 ? "; a box that shrinks around so few bubbles needs boundary m "
+                                   "instead of s, or neighbor nsq"
+                                 : "");
 
   // To count a pair of a bubble and its own image once, LAMMPS' lists in a tilted box compare their
   // places, and take those for equal that differ by less than this
 
   const double blurred = 0.01 * force->angstrom;
   if (domain->triclinic && force->newton_pair && 2.0 * largest >= side && side < blurred)
-    error->all(FLERR,
-               "Pair style durian/foam: contacts of bubbles with their own images in a triclinic box "
-               "with sides below {} need newton off, or another unit of length",
-               blurred);
+    error->all(
+        FLERR,
+        "Pair style durian/foam: contacts of bubbles with their own images in a triclinic box "
+        "with sides below {} need newton off, or another unit of length",
+        blurred);
 }
 
 // In 2D the box has a thickness that means nothing, except that LAMMPS refuses to sort bubbles into
@@ -499,11 +504,12 @@ void PairDurianFoam::read_restart_settings(FILE *fp)
 
   const bool sound = mu0 > 0.0 && rin >= 0.0 && ain >= 0.0 && headroom >= 1.0;
   if (!sound || !std::isfinite(mu0 + rin + ain + headroom))
-    error->all(FLERR,
-               "Pair style durian/foam: the restart file has mu0 {} (must be > 0), mean radius {} and "
-               "mean surface {} (must be >= 0), headroom {} (must be >= 1): it is damaged, or of "
-               "another version of this style",
-               mu0, rin, ain, headroom);
+    error->all(
+        FLERR,
+        "Pair style durian/foam: the restart file has mu0 {} (must be > 0), mean radius {} and "
+        "mean surface {} (must be >= 0), headroom {} (must be >= 1): it is damaged, or of "
+        "another version of this style",
+        mu0, rin, ain, headroom);
 }
 
 void PairDurianFoam::write_data(FILE *fp)
