@@ -135,7 +135,7 @@ template <int D, class Space> void FixFoamRKC::estimate_in(Space &here)
   using B = typename Space::Bubbles;
   const int nlocal = atom->nlocal;
   const double Rin = pair->rin;
-  const double q_unit = variable == Variable::VOLUME ? D * std::pow(Rin, D - 1) : 1.0;
+  const double q_unit = variable == Variable::VOLUME ? D * (D == 2 ? Rin : Rin * Rin) : 1.0;
   auto take = [&](const FoamTotals &mine) {
     const FoamTotals all = reduce(mine);
     direction_size = std::sqrt(all.sum[DIRECTION]);

@@ -111,8 +111,12 @@ def test_random_scene(lmp, seed):
                          directory=result.directory)
         same_bits(last(result), again.dump("last2")[0])
 
-    scale = (2.0**30, 2.0**20, 2.0**-40)
-    assert_scaled(result, scene.scaled(*scale)(lmp, ranks=ranks), scene.dim, scale, 0.0)
+    # in 3D bubbles that shrink to nothing pass the 1 of either units on their way, where glibc's cube
+    # root rounds in another way
+
+    if scene.dim == 2 or scene.rmin > 0.0:
+        scale = (2.0**30, 2.0**20, 2.0**-40)
+        assert_scaled(result, scene.scaled(*scale)(lmp, ranks=ranks), scene.dim, scale, 0.0)
 
     other = scene.before.replace("processors", "#")
     start = scene.but(run=0, before=other, after="")(lmp, ranks=3 - ranks)

@@ -74,8 +74,9 @@ def rates_of(x, R, box):
 def test_spectral_radius_is_the_largest_eigenvalue(lmp, dim):
     """Springs only: the Jacobian is - Hessian / mu0.  In a foam held by tiny steps each estimate goes on
     with the direction of the last one.  Each ends at a change of 2 %, which near eigenvalues make small:
-    the first is 10 to 11 % too small (measured), the last, after 25, 4 to 5 %, which is less than the
-    margin of the fix; none is too large."""
+    the first is 10 to 18 % too small (measured), the last, after 25, 4 to 5 %, which is less than the
+    margin of the fix; none is too large.  They need not rise: of the ratio of sizes and that of the
+    largest components the larger is taken, and only the former never falls."""
     x, R, _, box = foam(dim, 6 if dim == 2 else 4)
     for _ in range(200):    # near rest, where no mode grows
         x = (x + 0.2 * rates_of(x, R, box)) % box
@@ -88,7 +89,7 @@ def test_spectral_radius_is_the_largest_eigenvalue(lmp, dim):
     assert np.max(estimate) < exact * (1 + 1e-4)
     assert estimate[0] > 0.8 * exact
     assert MARGIN * estimate[-1] > exact
-    assert np.all(np.diff(estimate) > -1e-4 * exact)    # of a symmetric matrix: they never fall
+    assert np.all(np.diff(estimate) > -0.02 * exact)    # 2 % is what an estimate may still change by
     assert np.all(tables[0]["f_step[7]"][1:] == 3)
 
 

@@ -341,7 +341,7 @@ def test_backends_agree(backends, base, dim, ranks, integrator, name):
     """The stable release and the newest one, built by different compilers, base and KOKKOS styles
     give the same foam."""
     x, R, v, box = foam(dim, SIZE[dim])
-    steps = 100 if integrator == "abm" else 40
+    steps = 60 if integrator == "abm" else 40
     keywords = dict(gas="3e-2 0.1", integrator=integrator, run=f"run {steps}", every=steps // 2)
     other = backends(name)(case(dim, **keywords),
                            files={"data": data_file([box] * dim, x, R, v)}, ranks=ranks)
