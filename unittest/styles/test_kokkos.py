@@ -92,7 +92,7 @@ SCENES = {
     "rkc 3D, neighbor drag, 2 ranks": dict(integrator="rkc", dim=3, pair="drag neighbor", ranks=2,
                                            run="run 40"),
     "film only": dict(gas="0.1 0 rmin 0.4"),
-    "no exchange": dict(gas="0 0 rmin 0.4"),
+    "no exchange": dict(step="1e-3 norm max", gas="0 0 rmin 0.4"),
     "source, no exchange, 2 ranks": dict(gas="0 0.1 rmin 0.4", step="1e-3 scheme source", ranks=2),
 
     "2 ranks": dict(ranks=2),
@@ -154,7 +154,7 @@ SCENES = {
     "every": dict(run='run 120 every 30 "print line"'),
     "restarts written": dict(after="restart 20 state.*", ranks=2),
     "integrator again": dict(run="run 60\nunfix step\nfix step all foam/abm 1e-3\nrun 60"),
-    "exchange again": dict(run="run 60\nunfix gas\nfix gas all foam/coarsen 0.1 0.2\nrun 60"),
+    "exchange again": dict(step="1e-3 norm max", run="run 60\nunfix gas\nfix gas all foam/coarsen 0.1 0.2\nrun 60"),
     "no exchange later": dict(run="run 60\nthermo_style custom step atoms time pe f_step[*]\n"
                                   f"{PRECISE}unfix gas\nrun 60"),
     "drag changed": dict(run="run 60\npair_style durian/foam 1.0 drag neighbor\n"
@@ -417,7 +417,7 @@ def test_restart_changes_sides(backends, base, first, second, pair, ranks):
 
 # ---- until chaos --------------------------------------------------------------------------------
 
-COARSENING = case(2, gas="2e-2 0.1 nmin 100", run="run 100000", every=10)
+COARSENING = case(2, step="1e-3 norm max", gas="2e-2 0.1 nmin 100", run="run 100000", every=10)
 
 
 @pytest.fixture(scope="session")
