@@ -84,6 +84,14 @@ void FixFoamIntegrate::settings(int narg, char **arg, const FoamInput::Keywords 
          norm = v.one_of({"max", "rms"}) == 1 ? Foam::Norm::RMS : Foam::Norm::MAX;
          norm_given = true;
        }},
+      {"safety",
+       [&](const Value &v) {
+         control.safety = v.between(0.0, 1.0);
+       }},
+      {"growth",
+       [&](const Value &v) {
+         control.growth = v.number(FoamInput::ABOVE, 1.0);
+       }},
       {"drift", [&](const Value &v) {
          drift_removed = v.one_of({"keep", "remove"}) == 1;
          drift_given = true;
@@ -497,7 +505,7 @@ void FixFoamIntegrate::judge(const FoamTotals &mine)
   totals = reduce(mine);
   const double bubbles = totals.sum[BUBBLES] + totals.sum[REMOVED];
   error_last = step_error(norm, totals.max[ERROR], totals.sum[SQUARES],
-                          bubbles * (dim + (gas ? 1 : 0)), pair->rin);
+                          bubbles * (dim + (grows() ? 1 : 0)), pair->rin);
   if (totals.sum[BAD] > 0.0) error_last = INFINITY;
 }
 
@@ -837,7 +845,7 @@ double FixFoamIntegrate::natural_time() const
 {
   const double sigma0 = pair->stiffest();
   if (sigma0 > 0.0) return pair->mu0 / sigma0;
-  return gas && gas->K > 0.0 ? Foam::time_of_scaled(gas->K, 1.0, pair->rin) : 1.0;
+  return grows() ? Foam::time_of_scaled(gas->K, 1.0, pair->rin) : 1.0;
 }
 
 // by default, one unit of scaled time, or a thousand relaxation times at fixed radii
@@ -847,7 +855,7 @@ double FixFoamIntegrate::largest_step() const
   double largest = 1000.0 * natural_time();
   if (dt_limit > 0.0)
     largest = dt_limit;
-  else if (gas && gas->K > 0.0)
+  else if (grows())
     largest = Foam::time_of_scaled(gas->K, 1.0, pair->rin);
   return MIN(largest, stable_step());
 }

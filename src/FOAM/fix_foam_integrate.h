@@ -139,6 +139,7 @@ class FixFoamIntegrate : public Fix {
   void evaluate();    // forces of the state in x and radius, with l in v
 
   bool lagged() const;    // does the pair style take l from v
+  bool grows() const { return gas && gas->K > 0.0; }
   double natural_time() const;
   template <class Space> Foam::State<typename Space::Bubbles> state(Space &here)
   {
@@ -166,6 +167,7 @@ class FixFoamIntegrate : public Fix {
             {next_at(0), next_at(1), next_at(2)},
             next_at(3),
             gas != nullptr,
+            grows(),
             variable};
   }
   template <int D, class Space> Foam::Rates<D, typename Space::Bubbles> rates(Space &here);

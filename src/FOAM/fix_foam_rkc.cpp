@@ -9,7 +9,10 @@
 
 #include "fix_foam_rkc.h"
 
+#include "utils.h"
+
 using namespace LAMMPS_NS;
+using namespace FixConst;
 
 FixFoamRKC::FixFoamRKC(LAMMPS *lmp, int narg, char **arg) : FixFoamIntegrate(lmp, narg, arg)
 {
@@ -31,6 +34,18 @@ FoamTotals FixFoamRKC::attempt(double step, bool first)
 {
   FoamHost here(lmp);
   return dim == 2 ? attempt_in<2>(here, step, first) : attempt_in<3>(here, step, first);
+}
+
+// fix enforce2d, which 2D scenes often have, sets to 0 what is 0
+
+bool FixFoamRKC::others_act() const
+{
+  if (!modify->n_pre_force && !modify->n_post_force_any) return false;
+  for (int m = 0; m < modify->nfix; m++)
+    if ((modify->fmask[m] & (PRE_FORCE | POST_FORCE)) &&
+        !utils::strmatch(modify->fix[m]->style, "^enforce2d"))
+      return true;
+  return false;
 }
 
 double FixFoamRKC::stable_step() const

@@ -65,8 +65,12 @@ class FixFoamRKC : public FixFoamIntegrate {
   static constexpr int STEPS = 25, FEW = 10;    // between estimates; if one was rejected
   static constexpr int ITERATIONS = 50;         // of an estimate
   static constexpr double ENOUGH = 0.02;        // relative change of the last iteration
+  static constexpr double FALL = 0.9;           // of the estimate since the last one, at most
+  static constexpr double GONE = 0.5;           // or more: what made it as large is there no longer
   double aside =
       1.0e-6;    // step aside of the bubble that moves most, in <R_in>: see FixFoamRKCKokkos
+
+  bool others_act() const;    // do other fixes add forces, which may depend on time or velocity
 
   double spectral_radius() const { return radius_given > 0.0 ? radius_given : MARGIN * radius; }
 
@@ -100,9 +104,11 @@ FoamTotals FixFoamRKC::attempt_in(Space &here, double step, bool first)
   using B = typename Space::Bubbles;
   const int nlocal = atom->nlocal;
 
-  // F_0 is known from the last step, unless the box has taken the bubbles along since
+  // F_0 is known from the last step, unless since then the box has taken the bubbles along, or other
+  // fixes' forces have changed by themselves: what they change between F_0 and the stages would pass for
+  // an error that no step is short enough for
 
-  if (first && domain->box_change) {
+  if (first && (domain->box_change || others_act())) {
     here.for_each(nlocal, KeepStart<D, B>{state(here)});
     first = false;
     evaluate();
@@ -152,17 +158,19 @@ template <int D, class Space> void FixFoamRKC::estimate_in(Space &here)
     if (most > 0.0) take(here.totals(nlocal, JoinRates<D, B>{d, direction_most / most}));
   }
 
-  // Forces may depend on more than places: l, and those of other fixes on steps or velocities, are not
-  // what they were when F_0 was evaluated
+  // Forces may depend on more than places: l, and the velocities that other fixes look at, are not what
+  // they were when F_0 was evaluated
 
   Stages y{};
-  if (lagged() || modify->n_pre_force || modify->n_post_force_any) {
+  if (lagged() || others_act()) {
     y = stages(here);
     here.for_each(nlocal, StepAside<D, B>{state(here), 0.0});
     evaluate();
     here.for_each(nlocal, KeepVelocities<D, B>{rates<D>(here),
                                                {y.x_before[0], y.x_before[1], y.x_before[2]}});
   }
+
+  const double radius_then = radius;
 
   // In a large foam the mode that relaxes fastest is that of a few bubbles, and the rest, which makes up
   // the size of the direction, hides it for long; by the largest component it shows sooner.
@@ -181,7 +189,13 @@ template <int D, class Space> void FixFoamRKC::estimate_in(Space &here)
     kept = false;
     if (std::fabs(radius - before) <= ENOUGH * radius) break;
   }
+
+  // The iteration may miss the mode that the last one had found: in a foam that goes on as it was, the
+  // estimate falls little by little
+
   if (h_before == 0.0) changed_step = accepted;
+  if (radius_step - changed_step >= STEPS && radius > GONE * radius_then)
+    radius = std::max(radius, FALL * radius_then);
   radius_step = accepted;
   rejected_then = rejected;
 }

@@ -49,15 +49,13 @@ class FoamInput {
 
     double number(Compare compare, double limit) const
     {
-      const std::string allowed =
-          fmt::format("a number {} {}", compare == ABOVE ? ">" : ">=", limit);
-      const char *const begin = given(allowed);
-      char *end = nullptr;
-      const double x = std::strtod(begin, &end);
-      const bool a_number = consists_of("0123456789+-.eE") && end == begin + text.size();
-      if (!a_number || !std::isfinite(x) || (compare == ABOVE ? x <= limit : x < limit))
-        refuse(allowed, a_number && std::isinf(x) ? ", which is too large" : "");
-      return x;
+      return number(fmt::format("a number {} {}", compare == ABOVE ? ">" : ">=", limit),
+                    [=](double x) { return compare == ABOVE ? x > limit : x >= limit; });
+    }
+    double between(double lo, double hi) const    // neither lo nor hi
+    {
+      return number(fmt::format("a number > {} and < {}", lo, hi),
+                    [=](double x) { return x > lo && x < hi; });
     }
 
     bigint count() const { return integer(0, MAXBIGINT, "an integer >= 0"); }
@@ -132,6 +130,17 @@ class FoamInput {
     {
       error->all(FLERR, "{}: {} must be {}, not {}{}", style, name, other_words + allowed,
                  shown(text), why);
+    }
+
+    template <class Allows> double number(const std::string &allowed, const Allows &allows) const
+    {
+      const char *const begin = given(allowed);
+      char *end = nullptr;
+      const double x = std::strtod(begin, &end);
+      const bool a_number = consists_of("0123456789+-.eE") && end == begin + text.size();
+      if (!a_number || !std::isfinite(x) || !allows(x))
+        refuse(allowed, a_number && std::isinf(x) ? ", which is too large" : "");
+      return x;
     }
 
     bool consists_of(const char *letters) const

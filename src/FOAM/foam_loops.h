@@ -283,7 +283,8 @@ template <class B> struct State {
   double *lag[3];                                 // l of f_n; null with static drag
   double *x_listed[3], *radius_listed;            // when the neighbor list was built
   double *v_next[3], *qdot_next;                  // f_{n+1}, where the corrector has it; else null
-  bool grows;                                     // gas is exchanged, radii change
+  bool counts;    // bubbles may be removed: count them, sum their gas
+  bool grows;     // gas is exchanged, radii change
   Variable variable;
 
   FOAM_FUNCTION double v(int i, int k) const { return v_start[0] ? v_start[k][i] : b.v(i, k); }
@@ -343,7 +344,7 @@ template <int D, class B> FOAM_FUNCTION double from_listed(const State<B> &s, in
     const double d = s.b.place(i, k) - s.x_listed[k][i];
     square += d * d;
   }
-  const double growth = s.grows ? R - s.radius_listed[i] : 0.0;
+  const double growth = s.counts ? R - s.radius_listed[i] : 0.0;
   return std::sqrt(square) + (growth > 0.0 ? growth : 0.0);
 }
 
@@ -365,7 +366,8 @@ template <int D, class B> struct Judge {
     raise(all.max[ERROR], error);
     all.sum[SQUARES] += squares;
     raise(all.max[MOVED], moved);
-    if (s.grows && !(s.radius_start[i] > 0.0)) return;    // dead already
+    const double R = s.b.radius(i), q = s.q[i], R_start = s.grows ? s.radius_start[i] : R;
+    if (!(R_start > 0.0)) return;    // dead already
 
     // as far from the listed state as the next step goes if it repeats this one
 
@@ -374,13 +376,12 @@ template <int D, class B> struct Judge {
       const double ahead = 2.0 * s.b.place(i, k) - s.x_start[k][i] - s.x_listed[k][i];
       square += ahead * ahead;
     }
-    const double R = s.b.radius(i), q = s.q[i];
-    const double growth = s.grows ? 2.0 * R - s.radius_start[i] - s.radius_listed[i] : 0.0;
+    const double growth = s.counts ? 2.0 * R - R_start - s.radius_listed[i] : 0.0;
     raise(all.max[AHEAD], std::sqrt(square) + (growth > 0.0 ? growth : 0.0));
     raise(all.max[AHEAD], from_listed<D>(s, i, R));
     if (!std::isfinite(square) || !std::isfinite(q)) all.sum[BAD] += 1.0;
 
-    if (!s.grows) {    // nobody asks for their sums
+    if (!s.counts) {    // nobody asks for their sums
       all.sum[BUBBLES] += 1.0;
     } else if (vanished(R, q, smallest)) {
       all.sum[REMOVED] += 1.0;

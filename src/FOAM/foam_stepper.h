@@ -94,8 +94,10 @@ FOAM_FUNCTION double step_error(Norm norm, double largest, double squares, doubl
 struct StepControl {
   Scheme scheme = Scheme::STANDARD;
   double tolerance = 1.0e-5;
+  double safety = 0.9;    // share of the step that just meets the tolerance
+  double growth = 1.9;    // most that a step may be longer than the last
 
-  static constexpr double GROWTH = 1.9, SHRINK = 0.2, SAFETY = 0.9, HALF = 0.5;
+  static constexpr double SHRINK = 0.2, HALF = 0.5;
 
   bool accepts(double error) const { return error <= tolerance; }    // NaN is refused
 
@@ -104,16 +106,16 @@ struct StepControl {
   double next(double h, double error, bool after_rejection) const
   {
     const bool accepted = accepts(error);
-    if (scheme == Scheme::SOURCE) return accepted ? GROWTH * h : HALF * h;
+    if (scheme == Scheme::SOURCE) return accepted ? growth * h : HALF * h;
     double factor = SHRINK;
     if (error == 0.0)
-      factor = GROWTH;
+      factor = growth;
     else if (std::isfinite(error))
-      factor = SAFETY * std::cbrt(tolerance / error);
-    if (!(factor < GROWTH)) factor = GROWTH;
+      factor = safety * std::cbrt(tolerance / error);
+    if (!(factor < growth)) factor = growth;
     if (!(factor > SHRINK)) factor = SHRINK;
     if (accepted && after_rejection && factor > 1.0) factor = 1.0;
-    if (!accepted && factor > SAFETY) factor = SAFETY;
+    if (!accepted && factor > safety) factor = safety;
     return factor * h;
   }
 };

@@ -57,6 +57,18 @@ def number(above=None, at_least=None, below=()):
                 bad | {word: word for word in below})
 
 
+def above_one():
+    return Kind(r"a number > 1\b", ["1.9", "+2", "1.5e0", "1e300"],
+                {**NO_NUMBER, "one": "1", "below": "0.99", "zero": "0", "negative": "-2"})
+
+
+def share():
+    """A number between 0 and 1, neither of them."""
+    return Kind(r"a number > 0 and < 1\b", ["0.9", ".5", "+8e-1", "0.999"],
+                {**NO_NUMBER, "zero": "0", "one": "1", "above": "1.1", "negative": "-0.5",
+                 "underflow": "1e-400"})
+
+
 def integer(least, most=None):
     bad = {**NO_NUMBER, "too small": str(least - 1), "negative": "-1", "fraction": f"{least}.5",
            "a point": f"{least}.0", "exponent": "1e1", "too large for 64 bits": "9223372036854775808",
@@ -94,7 +106,8 @@ def types(most):
 # ---- the styles ---------------------------------------------------------------------------------
 
 INTEGRATOR = {"dt0": number(above=0), "dtmax": number(above=0), "variable": one_of("volume", "radius"),
-              "norm": one_of("max", "rms"), "drift": one_of("keep", "remove")}
+              "norm": one_of("max", "rms"), "safety": share(), "growth": above_one(),
+              "drift": one_of("keep", "remove")}
 
 STYLES = [
     Style("pair", "durian/foam", "pair_style durian/foam", {"mu0": number(above=0)},

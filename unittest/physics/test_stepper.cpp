@@ -206,8 +206,8 @@ TEST(StepControl, FollowsTheThirdRootOfTheError)
 TEST(StepControl, FactorIsBounded)
 {
   const StepControl c = control();
-  EXPECT_DOUBLE_EQ(c.next(1.0, 0.0, false), StepControl::GROWTH);
-  EXPECT_DOUBLE_EQ(c.next(1.0, 1.0e-30, false), StepControl::GROWTH);
+  EXPECT_DOUBLE_EQ(c.next(1.0, 0.0, false), c.growth);
+  EXPECT_DOUBLE_EQ(c.next(1.0, 1.0e-30, false), c.growth);
   EXPECT_DOUBLE_EQ(c.next(1.0, 1.0e+30, false), StepControl::SHRINK);
 }
 
@@ -236,8 +236,8 @@ TEST(StepControl, RejectedStepAlwaysShrinks)
 {
   const StepControl c = control();
   for (double error = 1.0e-4 * (1.0 + EPS); error < 1.0; error *= 1.5) {
-    EXPECT_LE(c.next(1.0, error, false), StepControl::SAFETY);
-    EXPECT_LE(c.next(1.0, error, true), StepControl::SAFETY);
+    EXPECT_LE(c.next(1.0, error, false), c.safety);
+    EXPECT_LE(c.next(1.0, error, true), c.safety);
   }
 }
 

@@ -19,7 +19,7 @@ PAIR, COARSEN, ABM, BUBBLE = "durian/foam", "foam/coarsen", "foam/abm", "foam/bu
 
 PAIR_KEYWORDS = ("drag", "rin", "headroom")
 COARSEN_KEYWORDS = ("rmin", "liquid", "nmin", "ain")
-ABM_KEYWORDS = ("dt0", "dtmax", "variable", "norm", "scheme", "drift")
+ABM_KEYWORDS = ("dt0", "dtmax", "variable", "norm", "scheme", "safety", "growth", "drift")
 QUANTITIES = ("contacts", "area", "free", "vfilm", "vliquid", "rdot", "espring", "edurian")
 
 
@@ -73,6 +73,8 @@ def cases():
         *((f"1e-3 {keyword}", keyword, "needs a value") for keyword in ABM_KEYWORDS),
         *((f"1e-3 {keyword} {bad}", keyword, "> 0", bad)
           for keyword in ("dt0", "dtmax") for bad in ("0", "-1", "abc")),
+        *((f"1e-3 safety {bad}", "safety", "> 0 and < 1", bad) for bad in ("0", "1", "abc")),
+        *((f"1e-3 growth {bad}", "growth", "> 1", bad) for bad in ("0", "1", "abc")),
         ("1e-3 variable area", "variable", "volume", "radius", "area"),
         ("1e-3 norm l1", "norm", "max", "rms", "l1"),
         ("1e-3 scheme euler", "scheme", "standard", "source", "euler"),
