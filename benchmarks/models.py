@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from machine import Failed
 from run import say
 from scenes import SCENES
-from states import errors, loop_seconds, read_state
+from states import errors, loop_seconds
 
 STEP = "foam/abm 1e-4 norm rms"
 
@@ -28,9 +28,11 @@ class Model:
 
 MODELS = [
     Model("films and liquid"),
+    Model("films and liquid by the law lsw", {"gas": "{gas} liquid lsw"}),
     Model("films alone", {"gas": "0.0"}),
     Model("films alone, liquid with kappa = 1e-12", {"gas": "1.0e-12"}),
     Model("liquid alone", {"gas": "{gas} film no"}),
+    Model("liquid alone, by the law lsw", {"gas": "{gas} liquid lsw film no"}),
     Model("fixed sizes", {"K": 0}),
     Model("fixed sizes, fix foam/coarsen with K = 0", {"K": 0, "idle": "yes"}),
     Model("neighbor drag", {"drag": "neighbor"}, "drift remove"),
@@ -62,7 +64,7 @@ class Models:
                "date": time.strftime("%Y-%m-%d"),
                **{k: found[k] for k in ("evaluations", "N", "R", "energy")}}
         row["ns"] = 1.0e9 * row["cpu seconds"] / (float(row["evaluations"]) * bubbles)
-        return row, read_state(self.args.out / "state.1")
+        return row, self.campaign.take_states(1)[0]
 
     def scene(self, scene, bubbles):
         """Rows of all models of a scene that this LAMMPS can do."""

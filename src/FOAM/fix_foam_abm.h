@@ -39,7 +39,7 @@ class FixFoamABM : public FixFoamIntegrate {
     const int nlocal = atom->nlocal;
     const Foam::Predictor p = Foam::predictor(control.scheme, step, h_before);
     here.for_each(nlocal, Foam::Predict<D, B>{state(here), p, first});
-    evaluate();
+    evaluate(step);
     const auto s = state(here);
     return here.totals(nlocal, Foam::Correct<D, B>{s, rates<D>(here), judge_of<D>(s), step});
   }

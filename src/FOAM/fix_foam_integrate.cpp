@@ -310,6 +310,8 @@ void FixFoamIntegrate::give_lags()
 void FixFoamIntegrate::setup(int)
 {
   stopping = false;
+  update->update_time();
+  atime_start = update->atime;
 
   // This style knows when the list is outdated; LAMMPS' own look at it in each step is spared
 
@@ -328,7 +330,7 @@ void FixFoamIntegrate::setup(int)
     const size_t n = 3 * size_t(atom->nlocal + (force->newton ? atom->nghost : 0));
     if (n) f_so_far.assign(&atom->f[0][0], &atom->f[0][0] + n);
     if (!lags_given) give_lags();
-    evaluate();
+    evaluate(0.0);
   } else
     evaluations++;
   lags_given = false;
@@ -372,7 +374,6 @@ void FixFoamIntegrate::setup(int)
                "Fix {}: the first step must be > 0, not {}: see keyword dt0 and the "
                "timestep command",
                style, h);
-  update->update_time();
   set_timestep(MIN(h, largest_step()));
 
   take_population();
@@ -451,6 +452,7 @@ void FixFoamIntegrate::initial_integrate(int)
 {
   if (output->next_time_dump_any == update->ntimestep) dump_foreseen = update->ntimestep;
   bool refused = false, first = true;
+  atime_start = update->atime;
   if (domain->box_change) list_is_new = false;    // the box has moved since
 
   while (true) {
@@ -528,7 +530,7 @@ void FixFoamIntegrate::accept(double step)
   list_is_new = false;
   if (totals.max[Foam::AHEAD] > list_margin()) next_reneighbor = update->ntimestep;
 
-  update->atime += step;
+  update->atime = atime_start + step;
   update->atimestep = update->ntimestep;
   set_timestep(step);
 
@@ -632,8 +634,13 @@ void FixFoamIntegrate::compute_forces(int eflag, int vflag)
   if (modify->n_post_force_any) modify->post_force(vflag);
 }
 
-void FixFoamIntegrate::evaluate()
+// Forces of other fixes may depend on time, which LAMMPS counts in steps: its last time, and the steps since
+// then.
+
+void FixFoamIntegrate::evaluate(double later)
 {
+  update->atime = atime_start + later;
+  update->atimestep = update->ntimestep;
   compute_forces(0, 0);
   evaluations++;
 }

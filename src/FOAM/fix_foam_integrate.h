@@ -136,7 +136,9 @@ class FixFoamIntegrate : public Fix {
 
   // ---- what a scheme uses
 
-  void evaluate();    // forces of the state in x and radius, with l in v
+  // forces of the state in x and radius, with l in v, so much later than the start of the step
+
+  void evaluate(double later);
 
   bool lagged() const;    // does the pair style take l from v
   bool grows() const { return gas && gas->K > 0.0; }
@@ -205,6 +207,7 @@ class FixFoamIntegrate : public Fix {
   bool list_is_new = false;       // built at the present state
   bool ghosts_checked = false;    // their radii are communicated
   bool lags_given = false;        // to LAMMPS' own evaluation before a run
+  double atime_start = 0.0;       // LAMMPS' time at the start of the step
   bool stopping = false;          // the run has reached its end
   bool deform_told = false;       // what its styles make of changing steps
   bigint dump_foreseen = -1;      // step for which energies of bubbles were asked for in time

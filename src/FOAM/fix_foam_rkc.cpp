@@ -59,7 +59,7 @@ std::vector<double *> FixFoamRKC::progress()
 {
   auto all = FixFoamIntegrate::progress();
   for (double *one : {&radius, &radius_step, &changed_step, &direction_size, &direction_most,
-                      &stages_last, &rejected_then})
+                      &stages_last, &rejected_then, &others_change})
     all.push_back(one);
   return all;
 }

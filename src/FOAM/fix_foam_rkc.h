@@ -67,10 +67,22 @@ class FixFoamRKC : public FixFoamIntegrate {
   static constexpr double ENOUGH = 0.02;        // relative change of the last iteration
   static constexpr double FALL = 0.9;           // of the estimate since the last one, at most
   static constexpr double GONE = 0.5;           // or more: what made it as large is there no longer
+  static constexpr double NOTICED = 0.01;    // of the tolerance: change of a step by other forces
   double aside =
       1.0e-6;    // step aside of the bubble that moves most, in <R_in>: see FixFoamRKCKokkos
 
-  bool others_act() const;    // do other fixes add forces, which may depend on time or velocity
+  // Forces of other fixes may change with steps or velocities; whether they do is seen in estimates
+
+  bool others_act() const;
+  double others_change = 0.0;    // 1 if they did
+  void notice(const FoamTotals &change)
+  {
+    others_change = change.max[Foam::COMPONENT] * h > NOTICED * control.tolerance * pair->rin;
+  }
+  bool start_is_outdated() const
+  {
+    return domain->box_change || (others_act() && (radius_given > 0.0 || others_change != 0.0));
+  }
 
   double spectral_radius() const { return radius_given > 0.0 ? radius_given : MARGIN * radius; }
 
@@ -94,7 +106,7 @@ class FixFoamRKC : public FixFoamIntegrate {
     return {{at(0), at(1), at(2)}, at(3), at(4)};
   }
   template <int D, class Space> FoamTotals attempt_in(Space &here, double step, bool first);
-  template <int D, class Space> void estimate_in(Space &here);
+  template <int D, class Space> void estimate_in(Space &here, bool compare);
 };
 
 template <int D, class Space>
@@ -105,37 +117,41 @@ FoamTotals FixFoamRKC::attempt_in(Space &here, double step, bool first)
   const int nlocal = atom->nlocal;
 
   // F_0 is known from the last step, unless since then the box has taken the bubbles along, or other
-  // fixes' forces have changed by themselves: what they change between F_0 and the stages would pass for
-  // an error that no step is short enough for
+  // fixes' forces have changed otherwise than with time: what they change between F_0 and the stages would
+  // pass for an error that no step is short enough for
 
-  if (first && (domain->box_change || others_act())) {
-    here.for_each(nlocal, KeepStart<D, B>{state(here)});
-    first = false;
-    evaluate();
-    here.for_each(nlocal, TakeStartRates<D, B>{state(here), rates<D>(here)});
+  bool kept = !first, compare = first;
+  auto keep_start = [&] {
+    if (!kept) here.for_each(nlocal, KeepStart<D, B>{state(here)});
+    kept = true;
+  };
+  if (first && start_is_outdated()) {
+    keep_start();
+    evaluate(0.0);
+    notice(reduce(here.totals(nlocal, TakeStartRates<D, B>{state(here), rates<D>(here)})));
+    compare = false;
   }
   if (estimate_due()) {
-    if (first) here.for_each(nlocal, KeepStart<D, B>{state(here)});
-    first = false;
-    estimate_in<D>(here);
+    keep_start();
+    estimate_in<D>(here, compare);
   }
 
   // a step that turns out too long to be stable is shortened by the error that it has
 
   const Chebyshev c(stages_given ? stages_given : Chebyshev::count_for(step * spectral_radius()));
   stages_last = c.count();
-  here.for_each(nlocal, FirstStage<D, B>{state(here), stages(here), step * c[1].rate_start, first});
+  here.for_each(nlocal, FirstStage<D, B>{state(here), stages(here), step * c[1].rate_start, !kept});
   for (int j = 2; j < c.count(); j++) {
-    evaluate();
+    evaluate(c[j - 1].place * step);
     here.for_each(nlocal, NextStage<D, B>{state(here), stages(here), rates<D>(here), c[j], step});
   }
-  evaluate();
+  evaluate(c[c.count() - 1].place * step);
   const auto s = state(here);
   const NextStage<D, B> last{s, stages(here), rates<D>(here), c[c.count()], step};
   return here.totals(nlocal, LastStage<D, B>{last, judge_of<D>(s), c[c.count() - 1].place});
 }
 
-template <int D, class Space> void FixFoamRKC::estimate_in(Space &here)
+template <int D, class Space> void FixFoamRKC::estimate_in(Space &here, bool compare)
 {
   using namespace Foam;
   using B = typename Space::Bubbles;
@@ -165,9 +181,11 @@ template <int D, class Space> void FixFoamRKC::estimate_in(Space &here)
   if (lagged() || others_act()) {
     y = stages(here);
     here.for_each(nlocal, StepAside<D, B>{state(here), 0.0});
-    evaluate();
-    here.for_each(nlocal, KeepVelocities<D, B>{rates<D>(here),
-                                               {y.x_before[0], y.x_before[1], y.x_before[2]}});
+    evaluate(0.0);
+    const KeepVelocities<D, B> keep{
+        state(here), rates<D>(here), {y.x_before[0], y.x_before[1], y.x_before[2]}};
+    const FoamTotals mine = here.totals(nlocal, keep);
+    if (compare) notice(reduce(mine));
   }
 
   const double radius_then = radius;
@@ -179,7 +197,7 @@ template <int D, class Space> void FixFoamRKC::estimate_in(Space &here)
     const double before = radius, amount = aside * Rin / direction_most;
     const double most = direction_most / direction_size;
     here.for_each(nlocal, StepAside<D, B>{state(here), amount});
-    evaluate();
+    evaluate(0.0);
     take(here.totals(nlocal, TakeDirection<D, B>{{state(here), q_unit},
                                                  rates<D>(here),
                                                  {y.x_before[0], y.x_before[1], y.x_before[2]},

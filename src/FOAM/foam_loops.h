@@ -439,7 +439,7 @@ template <int D, class B> FOAM_FUNCTION void keep_history(const State<B> &s, int
   s.qdot_before[i] = s.qdot[i];
   if (!s.qdot_next) return;
   for (int k = 0; k < D; k++) s.b.v(i, k) = s.v_next[k][i];
-  s.qdot[i] = s.qdot_next[i];
+  s.qdot[i] = s.grows ? s.qdot_next[i] : 0.0;
 }
 
 template <int D, class B> struct KeepHistory {
@@ -496,8 +496,9 @@ template <int D, class B> struct Correct {
   double step;
   FOAM_FUNCTION void operator()(int i, FoamTotals &all) const
   {
-    double largest = 0.0, squares = 0.0, square = 0.0, moved = 0.0;
+    double largest = 0.0, squares = 0.0;
     double corrected[D];
+    const double moved = from_listed<D>(s, i, s.b.radius(i));
     for (int k = 0; k < D; k++) {
       const double predicted = s.b.place(i, k);
       const double velocity = rates.velocity(i, k);
@@ -506,7 +507,6 @@ template <int D, class B> struct Correct {
       const double error = std::fabs(corrected[k] - predicted);
       if (error > largest) largest = error;
       squares += error * error;
-      square += (predicted - s.x_listed[k][i]) * (predicted - s.x_listed[k][i]);
     }
     if (s.grows) {
       const double predicted = s.b.radius(i);
@@ -518,10 +518,9 @@ template <int D, class B> struct Correct {
       const double error = std::fabs(R - predicted);
       if (error > largest) largest = error;
       squares += error * error;
-      if (predicted > s.radius_listed[i]) moved = predicted - s.radius_listed[i];
     }
     for (int k = 0; k < D; k++) s.b.put(i, k, corrected[k]);
-    judge(i, largest, squares, std::sqrt(square) + moved, all);
+    judge(i, largest, squares, moved, all);
   }
 };
 
@@ -722,28 +721,39 @@ template <int D, class B> struct KeepStart {
   FOAM_FUNCTION void operator()(int i) const { keep_start<D>(s, i); }
 };
 
-// the velocities of this evaluation, to compare others with that take the same l
+FOAM_FUNCTION void take_change(double change, FoamTotals &all)
+{
+  if (std::fabs(change) > all.max[COMPONENT]) all.max[COMPONENT] = std::fabs(change);
+}
+
+// the velocities of this evaluation, to compare others with that take the same l; and how far they are
+// from those that are known
 
 template <int D, class B> struct KeepVelocities {
   static constexpr const char *NAME = "foam: keep velocities";
+  State<B> s;
   Rates<D, B> rates;
   double *v[3];
-  FOAM_FUNCTION void operator()(int i) const
+  FOAM_FUNCTION void operator()(int i, FoamTotals &all) const
   {
-    for (int k = 0; k < D; k++) v[k][i] = rates.velocity(i, k);
+    for (int k = 0; k < D; k++) {
+      v[k][i] = rates.velocity(i, k);
+      take_change(v[k][i] - s.v(i, k), all);
+    }
   }
 };
 
-// the rates of the start, evaluated anew
+// the rates of the start, evaluated anew; and how far they are from those that were known
 
 template <int D, class B> struct TakeStartRates {
   static constexpr const char *NAME = "foam: take rates of the start";
   State<B> s;
   Rates<D, B> rates;
-  FOAM_FUNCTION void operator()(int i) const
+  FOAM_FUNCTION void operator()(int i, FoamTotals &all) const
   {
     for (int k = 0; k < D; k++) {
       const double v = rates.velocity(i, k);
+      take_change(v - s.v(i, k), all);
       if (s.v_start[0]) {
         s.v_start[k][i] = v;
         s.lag[k][i] = s.b.v(i, k);

@@ -19,7 +19,7 @@ namespace Foam {
 // STANDARD: coefficients for the true ratio of steps, rates evaluated again at the
 // corrected state, step control by the order of the error.
 // SOURCE: as the thesis [L20] does: constant coefficients (w = 1), the rates of the
-// predicted state taken for those of the corrected one, 0.5 and 1.9 as step factors.
+// predicted state taken for those of the corrected one, 0.5 and growth (1.9) as step factors.
 
 enum class Scheme { STANDARD, SOURCE };
 
@@ -115,7 +115,7 @@ struct StepControl {
     if (!(factor < growth)) factor = growth;
     if (!(factor > SHRINK)) factor = SHRINK;
     if (accepted && after_rejection && factor > 1.0) factor = 1.0;
-    if (!accepted && factor > safety) factor = safety;
+    if (!accepted && factor > safety) factor = safety > SHRINK ? safety : SHRINK;
     return factor * h;
   }
 };

@@ -150,6 +150,32 @@ run           2
     assert thermo["f_gas[8]"][1] == pytest.approx(ball * 0.3**dim, rel=1e-14)
 
 
+@pytest.mark.parametrize("integrator", ["abm", "rkc"])
+def test_contacts_after_a_removal(lmp, integrator):
+    """Survivors that grow by the gas of many find new neighbors, also without exchange: two bubbles are
+    pushed together, and reach each other as they do with an exchange too slow to see."""
+    x = [[20, 50], [22.31, 50], [60, 90], *([10 + 4 * k, 10] for k in range(20))]
+    R = [1.0] * 3 + [0.212] * 20
+    frames = [lmp(HEAD.format(dim=2) + f"""
+read_data     data
+pair_style    durian/foam 1.0 rin 1.0
+pair_coeff    * * 1.0
+fix           gas all foam/coarsen {K} 0.0 rmin 0.5
+group         a id 1
+group         b id 2
+fix           fa a addforce 1.0 0 0
+fix           fb b addforce -1.0 0 0
+fix           step all foam/{integrator} 10 dt0 0.001 dtmax 0.13 growth 500
+run           3
+write_dump    all custom dump id x radius modify sort id format float %.17g
+""", files={"data": data_file([100, 100], x, R)}).dump("dump")[0] for K in (0, 1e-200)]
+    for frame in frames:
+        assert np.array_equal(frame["id"], [1, 2, 3])
+    assert frames[0]["radius"] == pytest.approx(frames[1]["radius"], rel=1e-14)
+    assert frames[0]["x"] == pytest.approx(frames[1]["x"], rel=1e-14)
+    assert np.ptp(frames[0]["x"][:2]) < 2 * frames[0]["radius"][0]    # in contact by now
+
+
 @pytest.mark.parametrize("rmin", [0.1, 0.0])
 @pytest.mark.parametrize("dim", [2, 3])
 def test_last_bubble_has_all_gas(lmp, dim, rmin):

@@ -254,10 +254,10 @@ def test_forces_that_are_not_of_places_alone(lmp, fix):
 
 @pytest.mark.parametrize("fix", OTHERS)
 def test_what_forces_of_time_and_velocity_cost(lmp, fix):
-    """At the start of a step other fixes see the same time as at its stages, and the power iteration the same
-    velocities: else the differences pass for errors and for stiffness, and until t = 10 the foam takes 10 to
-    45 times the 148 evaluations that it takes without other forces.  Now it is 1.3 to 1.6 times: one for
-    each of 33 to 42 steps, and for each estimate."""
+    """Stages see the forces of their time, and where these change otherwise from step to step, with velocities
+    and step numbers, those at the start of a step are evaluated anew: else the differences pass for errors
+    and for stiffness, and until t = 10 the foam takes 10 to 45 times the 148 evaluations that it takes
+    without other forces.  Now it is up to 1.6 times."""
     body = """variable over equal f_step[1]>=10
 fix           halt all halt 1 v_over != 0 error continue message no
 run           10000"""

@@ -196,6 +196,9 @@ FIRST, SECOND = 100, 60
 PUSH = """fix push all addforce 0.01 0 0
 fix wall all indent 1.0 sphere 8 8 0 3.0"""
 
+PULL = """variable pull equal 0.05*(time-2)
+fix pull all addforce v_pull 0 0"""
+
 INTERRUPTED = {
     "static": dict(),
     "neighbor": dict(pair="drag neighbor"),
@@ -207,6 +210,8 @@ INTERRUPTED = {
     "sorted often": dict(sort="20 0.0"),
     "never sorted": dict(sort="0 0.0"),
     "other forces": dict(extra=PUSH),    # fixes that come after the integrator
+    "forces of time": dict(extra=PULL),
+    "rkc, forces of time": dict(integrator="rkc", extra=PULL),
     "3D": dict(dim=3),
     "rkc": dict(integrator="rkc"),
     "rkc, neighbor, other forces": dict(integrator="rkc", pair="drag neighbor", extra=PUSH),
