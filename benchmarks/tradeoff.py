@@ -93,6 +93,10 @@ TOLERANCES = {
 }
 
 
+PRECISE = ("foam/abm 1e-5 norm rms",     # of mixed and single precision
+           *(f"foam/rkc {tol} norm rms" for tol in ("1e-3", "1e-4", "1e-5")))
+
+
 def methods(known, scene):
     more_words = without_drift(scene)
     return [Run(curve, tol, f"{style} {tol} {more}{more_words}")
@@ -289,7 +293,7 @@ class Campaign:
                     runs += knobs(self.known, name)
                     runs += [Run("precision", precision, step, precision=precision)
                              for precision in self.commands if precision != "double"
-                             for step in ("foam/abm 1e-5 norm rms", "foam/rkc 1e-3 norm rms")]
+                             for step in PRECISE]
                 for run in runs:
                     if self.wanted(run):
                         yield name, bubbles, run
