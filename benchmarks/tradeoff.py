@@ -67,9 +67,9 @@ def reference(scene, bubbles):
     expensive = bubbles > LARGE or scene in ("slow", "drag")
     tol = "1e-9" if bubbles <= 2000 and scene != "drag" else "1e-7" if expensive else "1e-8"
     if bubbles > VERY_LARGE:
-        tol = "1e-6"
-    norm = "" if tol == "1e-9" else " norm rms"
-    return Run("reference", tol, f"foam/abm {tol}{norm}{without_drift(scene)}", against="")
+        tol = "1e-5"
+    norm = "max" if tol == "1e-9" else "rms"
+    return Run("reference", tol, f"foam/abm {tol} norm {norm}{without_drift(scene)}", against="")
 
 
 def without_drift(scene):
@@ -107,7 +107,7 @@ def methods(known, scene):
 
 
 def chaos(scene, bubbles):
-    step = "foam/abm 1e-7" if bubbles <= 2000 else "foam/abm 1e-6 norm rms"
+    step = "foam/abm 1e-7 norm max" if bubbles <= 2000 else "foam/abm 1e-6 norm rms"
     if scene == "drag":
         step = "foam/abm 1e-5 norm rms" + without_drift(scene)
     return [Run("chaos", "0", step, against=""),
