@@ -67,6 +67,24 @@ def test_steps_without_effect(lmp, integrator):
     assert "Fix foam/" in result.errors[0] and "1e-13" in result.errors[0]
 
 
+@cases("step, integrator", ["growth 1e300", "growth 1.0000001", "safety 0.99", "safety 0.01"],
+       INTEGRATORS)
+def test_step_control(lmp, step, integrator):
+    """Steps that hardly grow, or grow at once to all that the error allows, or half of them refused."""
+    scene = anywhere(2, 60, 0.9, integrator=integrator, step=step, run=20)
+    assert scene(lmp).thermo[0]["Time"][-1] > 0.0
+
+
+@cases("dim", [2, 3])
+def test_steps_that_only_shrink(lmp, dim):
+    """Each is a fifth of the last, which is the least: after 20 of them it ends in words.  (The error of
+    abm becomes 0 before, and its steps grow again.)"""
+    scene = anywhere(dim, 10, 0.9, integrator="rkc", step="safety 1e-300", run=100)
+    result = scene(lmp, check=False, timeout=20)
+    assert result.returncode > 0
+    assert "Fix foam/rkc" in result.errors[0] and "is too short" in result.errors[0]
+
+
 @cases("start, dim, integrator", [2147483500, 10**12], [2, 3], INTEGRATORS)
 def test_number_of_the_step(lmp, start, dim, integrator):
     """Beyond 2^31 = 2147483648 there are the same foams."""
