@@ -105,7 +105,7 @@ def tables(rows):
                 group.method(curve, "last") if curve != "reference" else
                 group.at("last", curve))]
         if group.spread("error R", "last") is not None:
-            parts.append(f"{'displaced by 1e-12':34s}{'':36s}" + "".join(
+            parts.append(f"{'displaced by 1e-12':34s}{'':38s}" + "".join(
                 f"{group.spread(column, when):10.1e}" for column, when in COLUMNS))
         others = [row for row in group.at("last") if row["curve"] not in SPECIAL]
         parts += [run_line(row, group)
@@ -118,7 +118,7 @@ COLUMNS = [("error N", "last"), ("error R", "last"), ("error energy", "last"),
 
 
 def run_head():
-    return (f"{'settings':34s}{'evaluations':>12s}{'rejected':>9s}{'seconds':>9s}{'N':>6s}" +
+    return (f"{'settings':34s}{'evaluations':>12s}{'rejected':>9s}{'seconds':>9s}{'N':>8s}" +
             "".join(f"{name:>10s}" for name in ("N", "<R>", "energy", "sizes", "radii", "x")))
 
 
@@ -133,7 +133,7 @@ def run_line(row, group):
     if row["curve"] == "reference":
         name += "  [reference]"
     line = (f"{name:34s}{number(row, 'evaluations'):12.0f}{number(row, 'rejected'):9.0f}"
-            f"{number(row, 'cpu seconds'):9.3g}{row['N']:>6s}")
+            f"{number(row, 'cpu seconds'):9.3g}{row['N']:>8s}")
     if not row["against"]:
         return line
     return line + "".join(f"{number(row if when == 'last' else first, column):10.1e}"

@@ -43,7 +43,8 @@ def files(directory):
 @cases("ranks, integrator", [1, 2], INTEGRATORS)
 def test_killed_and_continued(lmp, integrator, ranks):
     """Killed at any time, also while a restart file is written: of two files that are written in
-    turn, one can be read, and the other too or is refused. The end is the same bit by bit."""
+    turn, and a copy of the one that the run began with, one can be read, and the others too or are
+    refused. The end is the same bit by bit."""
     # steps that write a restart build lists, so the whole run has to write them, too
     scene = anywhere(2, 60, 0.9, integrator=integrator, K=0.01, run=STEPS, every=50,
                      after=f"restart {EVERY} state.a state.b")
@@ -61,9 +62,11 @@ def test_killed_and_continued(lmp, integrator, ranks):
         text, refused = scene.input(), 0
         for life in range(3):
             killed(lmp, directory, text, delays.uniform(0.0, 0.3), ranks)
+            # The newest that can be read. A file read must not be written over before the next one is
+            # there: a life that ends in its first restart file leaves none but the one that it came from.
             names = sorted(files(directory), key=files(directory).get, reverse=True)
-            for name in names:    # the newest that can be read
-                # a file read must not be written over before the next one is there
+            names += [f"kept{life - 1}"] if life else []
+            for name in names:
                 kept = f"kept{life}"
                 (directory / kept).write_bytes((directory / name).read_bytes())
                 check = lmp(scene.begin() + f"read_restart {kept} noremap\n", check=False,
