@@ -5,6 +5,7 @@ import random
 import signal
 import subprocess
 import time
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -16,6 +17,26 @@ EVERY, STEPS = 5, 800
 KILLS = 20 if FULL else 1
 
 
+def status(pid):
+    """State and parent of a process, or that of none."""
+    try:
+        words = (Path("/proc") / str(pid) / "stat").read_text().rsplit(")", 1)[1].split()
+    except (FileNotFoundError, ProcessLookupError):
+        return "X", 0
+    return words[0], int(words[1])
+
+
+def family(pid):
+    """A process and all that it has started: the ranks of mpiexec have sessions of their own."""
+    children = {}
+    for path in Path("/proc").glob("[0-9]*"):
+        children.setdefault(status(path.name)[1], []).append(int(path.name))
+    found = [pid]
+    for one in found:    # grows on the way
+        found += children.get(one, [])
+    return found
+
+
 def killed(lmp, directory, text, delay, ranks):
     """Start LAMMPS, end it by SIGKILL after a while; True if it had not ended by itself."""
     (directory / "in.killed").write_text(text)
@@ -23,7 +44,7 @@ def killed(lmp, directory, text, delay, ranks):
     if ranks > 1:
         command = [program("FOAM_MPIEXEC"), "-n", str(ranks)] + command
     with subprocess.Popen(command, cwd=directory, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
-                          stderr=subprocess.DEVNULL, start_new_session=True) as process:
+                          stderr=subprocess.DEVNULL) as process:
         before = files(directory)
         for _ in range(3000):    # a restart file of its own, then some time
             if process.poll() is not None or files(directory) != before:
@@ -32,7 +53,18 @@ def killed(lmp, directory, text, delay, ranks):
         time.sleep(delay)
         ended = process.poll() is not None
         if not ended:
-            os.killpg(process.pid, signal.SIGKILL)
+            pids = family(process.pid)
+            for pid in pids:
+                try:
+                    os.kill(pid, signal.SIGKILL)
+                except ProcessLookupError:
+                    pass
+            for _ in range(1000):    # before they are, they write on
+                if all(status(pid)[0] in "ZX" for pid in pids):
+                    break
+                time.sleep(0.01)
+            else:
+                pytest.fail("processes live on after SIGKILL")
     return not ended
 
 
