@@ -128,7 +128,8 @@ FoamTotals FixFoamRKC::attempt_in(Space &here, double step, bool first)
   if (first && start_is_outdated()) {
     keep_start();
     evaluate(0.0);
-    notice(reduce(here.totals(nlocal, TakeStartRates<D, B>{state(here), rates<D>(here)})));
+    const FoamTotals mine = here.totals(nlocal, TakeStartRates<D, B>{state(here), rates<D>(here)});
+    if (others_act()) notice(reduce(mine));
     compare = false;
   }
   if (estimate_due()) {
@@ -185,7 +186,7 @@ template <int D, class Space> void FixFoamRKC::estimate_in(Space &here, bool com
     const KeepVelocities<D, B> keep{
         state(here), rates<D>(here), {y.x_before[0], y.x_before[1], y.x_before[2]}};
     const FoamTotals mine = here.totals(nlocal, keep);
-    if (compare) notice(reduce(mine));
+    if (compare && others_act()) notice(reduce(mine));
   }
 
   const double radius_then = radius;
