@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from foams import SHORT
 from scenes import INTEGRATORS, Scene, anywhere, box_for, cases, last, radii
 
 PHI = [0.01, 0.3, 0.64, 0.84, 1.0, 1.3]
@@ -47,9 +48,12 @@ def test_equal_bubbles(lmp, dim, kappa, integrator):
 @cases("spread, dim, integrator", [0.01, 0.5, 1.0], [2, 3], INTEGRATORS)
 def test_spread_of_radii(lmp, dim, spread, integrator):
     scene = anywhere(dim, 200, 0.9, spread=spread, integrator=integrator, run=400, K=0.1)
-    thermo = scene(lmp).thermo[0]
-    assert thermo["f_gas[7]"][-1] > 0 or spread < 0.1
-    assert thermo["f_gas[3]"][-1] > 1.0
+    result = scene(lmp)
+    thermo, R = result.thermo[0], last(result)["radius"]
+    assert R.max() > scene.R.max() and R.std() / R.mean() > scene.R.std() / scene.R.mean()
+    if spread > 0.1:    # equal sizes part first: until the small are gone, the mean falls
+        assert thermo["f_gas[7]"][-1] > 0
+        assert thermo["f_gas[3]"][-1] > 1.0
 
 
 @cases("ratio, dim, integrator", [10, 100, 1000], [2, 3], INTEGRATORS)
@@ -149,6 +153,12 @@ def test_long_box(lmp, dim, ranks, integrator):
     assert thermo["Step"][-1] == 100
 
 
+# Runs that sums in another order leave the same within SHORT. The choice of the step multiplies rounding:
+# with steps as long as foam/rkc may take, 2e-13 after 18 of them becomes 1e-3 after 58, at the same
+# error. So none is longer than what accuracy allows at most times.
+SHORT_RUN = {"run": 60, "dtmax": 0.1}
+
+
 def images_apart(a, b, vectors):
     """Largest distance of the places a from b, up to lattice vectors (rows)."""
     d = np.linalg.solve(vectors.T, (a - b).T).T
@@ -161,17 +171,16 @@ def test_triclinic(lmp, dim, tilt, integrator):
     """A lattice has many boxes: tilted by whole vectors the foam is the same."""
     if dim == 2:
         tilt = (tilt[0], 0, 0)
-    plain = anywhere(dim, 60, 0.8, integrator=integrator, run=60, K=0.05)
+    plain = anywhere(dim, 60, 0.8, integrator=integrator, K=0.05, **SHORT_RUN)
     L = plain.box[0]
     tilted = plain.but(tilt=tuple(t * L for t in tilt))
     a, b = plain(lmp), tilted(lmp)
     if all(t == int(t) for t in tilt):
         f, g = last(a), last(b)
         assert np.array_equal(f["id"], g["id"])
-        # sums in another order, 60 steps: SHORT of ../styles/foams.py
-        assert f["radius"] == pytest.approx(g["radius"], rel=1e-9)
+        assert f["radius"] == pytest.approx(g["radius"], rel=SHORT)
         columns = ["x", "y", "z"][:dim]
-        assert images_apart(f.array(*columns), g.array(*columns), L * np.eye(dim)) < 1e-9 * L
+        assert images_apart(f.array(*columns), g.array(*columns), L * np.eye(dim)) < SHORT * L
 
 
 @cases("dim, boundary, integrator", [2, 3], ["s s s", "m m m", "f f f", "p s f"], INTEGRATORS)
@@ -181,12 +190,12 @@ def test_not_periodic(lmp, dim, boundary, integrator):
     random = np.random.default_rng(4)
     R = radii(random, 30, 0.3)
     x = 50.0 + random.uniform(-4, 4, (30, dim))
-    plain = Scene(x, R, [100.0] * dim, integrator=integrator, K=0.1, kappa=0.0, run=60)
+    plain = Scene(x, R, [100.0] * dim, integrator=integrator, K=0.1, kappa=0.0, **SHORT_RUN)
     other = plain.but(boundary=boundary)
     f, g = (last(s(lmp)) for s in (plain, other))
     assert np.array_equal(f["id"], g["id"])
     for column in ("x", "y", "z", "radius"):
-        assert f[column] == pytest.approx(g[column], rel=1e-9), column
+        assert f[column] == pytest.approx(g[column], rel=SHORT), column
 
 
 @cases("integrator", INTEGRATORS)

@@ -126,15 +126,20 @@ def test_free_exchange(lmp, K, kappa, dim, law, integrator):
     random = np.random.default_rng(8)
     R = random.uniform(0.8, 1.2, 4**dim)
     x = np.stack(np.meshgrid(*[np.arange(4)] * dim), -1).reshape(-1, dim) * 6.0 + 3.0
+    tol = 1e-7
     scene = Scene(x, R, [24.0] * dim, K=K, kappa=kappa, gas=f"liquid {law} nmin {len(R) - 1}",
-                  integrator=integrator, tol=1e-7, dt0=1e-6 / (K * kappa),
+                  integrator=integrator, tol=tol, dt0=1e-6 / (K * kappa),
                   dtmax=0.1 / (K * kappa), run=3000, every=10)
     frames = scene(lmp).dump("dump")
     for frame in frames[1::len(frames) // 4]:
         assert np.array_equal(frame["x"], x[:, 0])
         expected = free_bubbles(R, dim, K, kappa, law, frame.time)
-        # order 2: tol^(2/3) = 2e-5; a small radius has a large rate, 10 times that of others
-        assert np.abs(frame["radius"]**dim - expected**dim).max() < 2e-4
+        # Each step so far added an error of tol. Norm rms is a mean over all components, and one
+        # may have it all; dR^d = d R^(d-1) dR; and what is off in time by dt is off by dt dR/dt in
+        # radius, which grows like 1/R as R falls (law lsw, 2D).
+        allowed = tol * frame.step * np.sqrt((dim + 1) * len(R)) * dim * R.max()**(dim - 1)
+        assert np.all(np.abs(frame["radius"]**dim - expected**dim) <
+                      allowed * np.maximum(1, R / frame["radius"]))
     assert len(frames) > 2
 
 
