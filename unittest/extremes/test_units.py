@@ -40,7 +40,9 @@ def assert_scaled(a, b, dim, scale, limit):
             if limit == 0.0:
                 assert np.array_equal(x, y), f"{name}: {np.abs(x - y).max()}"
             elif name not in ("f_step[6]", "id"):    # small differences, large relative changes
-                assert np.abs(x - y).max() <= limit * np.abs(x).max(), name
+                # the spectral radius is a difference over 1e-6 <R_in>, of places known to 1e-15
+                allowed = 10.0 * limit if name == "f_step[8]" else limit
+                assert np.abs(x - y).max() <= allowed * np.abs(x).max(), name
 
 
 WHAT = {"length": (1, 0, 0), "time": (0, 1, 0), "stiffness": (0, 0, 1), "all": (1, -1, 1)}
