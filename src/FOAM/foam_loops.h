@@ -290,6 +290,12 @@ template <class B> struct State {
   FOAM_FUNCTION double v(int i, int k) const { return v_start[0] ? v_start[k][i] : b.v(i, k); }
 };
 
+template <int D, class B> FOAM_FUNCTION void put_gas(const State<B> &s, int i, double q)
+{
+  s.q[i] = q;
+  s.b.radius(i) = radius_of<D>(s.variable, q);
+}
+
 // At the first attempt of a step y_n is kept, and with neighbor drag v_n too: LAMMPS' v, also
 // that of ghosts, then is l, where the pair style finds it.
 
@@ -416,8 +422,7 @@ template <int D, class B> struct Redistribute {
       for (int k = 0; k < 3; k++) s.b.v(i, k) = 0.0;
       s.b.radius(i) = 0.0;
     } else {
-      s.q[i] *= factor;
-      s.b.radius(i) = radius_of<D>(s.variable, s.q[i]);
+      put_gas<D>(s, i, factor * s.q[i]);
     }
   }
 };
@@ -479,10 +484,7 @@ template <int D, class B> struct Predict {
     if (first) keep_start<D>(s, i);
     for (int k = 0; k < D; k++)
       s.b.put(i, k, predict(s.x_start[k][i], s.v(i, k), s.v_before[k][i], p));
-    if (s.grows) {
-      s.q[i] = predict(s.q_start[i], s.qdot[i], s.qdot_before[i], p);
-      s.b.radius(i) = radius_of<D>(s.variable, s.q[i]);
-    }
+    if (s.grows) put_gas<D>(s, i, predict(s.q_start[i], s.qdot[i], s.qdot_before[i], p));
   }
 };
 
@@ -550,8 +552,7 @@ template <int D, class B> struct FirstStage {
     }
     if (s.grows) {
       y.q_before[i] = s.q_start[i];
-      s.q[i] = s.q_start[i] + step * s.qdot[i];
-      s.b.radius(i) = radius_of<D>(s.variable, s.q[i]);
+      put_gas<D>(s, i, s.q_start[i] + step * s.qdot[i]);
     }
     y.moved[i] = 0.0;
   }
@@ -577,8 +578,7 @@ template <int D, class B> struct NextStage {
     }
     if (s.grows) {
       const double last = s.q[i];
-      s.q[i] = advance(s.q_start[i], last, y.q_before[i], qdot, s.qdot[i], h, c);
-      s.b.radius(i) = radius_of<D>(s.variable, s.q[i]);
+      put_gas<D>(s, i, advance(s.q_start[i], last, y.q_before[i], qdot, s.qdot[i], h, c));
       y.q_before[i] = last;
     }
   }
@@ -690,10 +690,7 @@ template <int D, class B> struct StepAside {
   FOAM_FUNCTION void operator()(int i) const
   {
     for (int k = 0; k < D; k++) s.b.put(i, k, s.x_start[k][i] + amount * s.v_before[k][i]);
-    if (s.grows) {
-      s.q[i] = s.q_start[i] + amount * s.qdot_before[i];
-      s.b.radius(i) = radius_of<D>(s.variable, s.q[i]);
-    }
+    if (s.grows) put_gas<D>(s, i, s.q_start[i] + amount * s.qdot_before[i]);
   }
 };
 
