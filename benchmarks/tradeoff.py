@@ -133,6 +133,8 @@ def knobs(known, scene):
             runs.append(Run(f"{short} variable", "radius", f"{base} variable radius"))
         if short == "rkc":
             runs += [Run("rkc stages", s, f"{base} stages {s}") for s in ("3", "5", "8", "12", "20")]
+            loose = f"{style} 1e-2 norm rms" + without_drift(scene)    # its steps may leave the list
+            runs += [Run("rkc loose skin", s, loose, {"skin": s}) for s in ("0.5", "0.8")]
     return runs
 
 

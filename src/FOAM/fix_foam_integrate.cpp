@@ -147,6 +147,9 @@ void FixFoamIntegrate::init()
   for (auto &ifix : modify->get_fix_list()) {
     if (auto *found = dynamic_cast<FixFoamCoarsen *>(ifix)) gas = found;
     if (ifix->time_integrate) integrators++;
+    if (utils::strmatch(ifix->style, "^dt/reset"))
+      error->all(FLERR, "Fix {} chooses the timestep: fix {} cannot do so, too", style,
+                 ifix->style);
     if (utils::strmatch(ifix->style, "^langevin"))
       error->all(FLERR,
                  "Fix {} repeats steps until their error is small, which random forces of "
@@ -156,7 +159,7 @@ void FixFoamIntegrate::init()
       error->warning(FLERR,
                      "Fix {} changes the timestep, and fix deform takes the strain of styles "
                      "vel, erate, trate and wiggle for steps times the present timestep: "
-                     "use its style variable, with the time of fix {}",
+                     "in their place use its style variable, with the time of fix {}",
                      style, style);
     deform_told = deform_told || utils::strmatch(ifix->style, "^deform");
   }
@@ -310,6 +313,8 @@ void FixFoamIntegrate::give_lags()
 void FixFoamIntegrate::setup(int)
 {
   stopping = false;
+  outlisted = 0;
+  accepted_then = accepted;
   update->update_time();
   atime_start = update->atime;
 
@@ -474,11 +479,13 @@ void FixFoamIntegrate::initial_integrate(int)
 
     // forces beyond the neighbor list are not trusted: list the start anew, or step less far
 
-    if (totals.max[Foam::MOVED] > list_margin()) {
+    const double moved = totals.max[Foam::MOVED], margin = list_margin();
+    if (moved > margin) {
       if (list_is_new) {
         rejected++;
+        outlisted++;
         refused = true;
-        h = 0.5 * step;
+        h = control.within(step, margin / moved);
       } else {
         return_to_start();
         rebuild_lists();
@@ -839,6 +846,12 @@ void FixFoamIntegrate::post_run()
   if (stopping) timer->reset_timeout();
   if (delay_given >= 0) neighbor->delay = delay_given;
   delay_given = -1;
+  const double steps = accepted - accepted_then;
+  if (outlisted > 0.1 * steps && steps >= 10.0 && comm->me == 0)
+    error->warning(FLERR,
+                   "Fix {}: {} of {:.0f} steps were tried in vain, since bubbles went further than "
+                   "half the skin of {}: a larger skin saves them, see the neighbor command",
+                   style, outlisted, steps, neighbor->skin);
   if (lags.in_use())
     for (int i = 0; i < atom->nlocal; i++)
       for (int k = 0; k < 3; k++) lags[LASTX + k][i] = atom->v[i][k];

@@ -209,6 +209,8 @@ class FixFoamIntegrate : public Fix {
   bool lags_given = false;        // to LAMMPS' own evaluation before a run
   double atime_start = 0.0;       // LAMMPS' time at the start of the step
   bool stopping = false;          // the run has reached its end
+  bigint outlisted = 0;           // tries of this run that went beyond the list
+  double accepted_then = 0.0;     // steps before this run
   bool deform_told = false;       // what its styles make of changing steps
   bigint dump_foreseen = -1;      // step for which energies of bubbles were asked for in time
   int delay_given = -1;           // neigh_modify delay, which does not count during a run

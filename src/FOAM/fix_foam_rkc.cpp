@@ -24,7 +24,7 @@ FixFoamRKC::FixFoamRKC(LAMMPS *lmp, int narg, char **arg) : FixFoamIntegrate(lmp
                stages_given = v.is("auto") ? 0 : v.integer(Chebyshev::FEWEST, Chebyshev::MOST);
              }},
             {"spectral", [&](const Value &v) {
-               radius_given = v.is("auto") ? 0.0 : v.number(FoamInput::ABOVE, 0.0);
+               spectral_given = v.is("auto") ? 0.0 : v.number(FoamInput::ABOVE, 0.0);
              }}});
   add_callbacks();
   size_vector = 8;
@@ -58,7 +58,7 @@ double FixFoamRKC::stable_step() const
 std::vector<double *> FixFoamRKC::progress()
 {
   auto all = FixFoamIntegrate::progress();
-  for (double *one : {&radius, &radius_step, &changed_step, &direction_size, &direction_most,
+  for (double *one : {&spectral, &spectral_step, &changed_step, &direction_size, &direction_most,
                       &stages_last, &rejected_then, &others_change})
     all.push_back(one);
   return all;
@@ -67,6 +67,6 @@ std::vector<double *> FixFoamRKC::progress()
 double FixFoamRKC::compute_vector(int n)
 {
   if (n == 6) return stages_last;
-  if (n == 7) return radius_given > 0.0 ? radius_given : radius;
+  if (n == 7) return spectral_given > 0.0 ? spectral_given : spectral;
   return FixFoamIntegrate::compute_vector(n);
 }

@@ -45,19 +45,19 @@ class FixFoamRKC : public FixFoamIntegrate {
 
   // settings
 
-  int stages_given = 0;         // 0: as many as a step needs
-  double radius_given = 0.0;    // 0: estimated
+  int stages_given = 0;           // 0: as many as a step needs
+  double spectral_given = 0.0;    // 0: estimated
 
   // Estimate of the spectral radius, by power iteration; its direction lies where other schemes
   // have f_{n-1}
 
-  double radius = 0.0;            // of the Jacobian, as estimated
-  double radius_step = -1.0;      // number of accepted steps when it was
+  double spectral = 0.0;          // of the Jacobian, as estimated
+  double spectral_step = -1.0;    // number of accepted steps when it was
   double changed_step = 0.0;      // the same when the foam was another
   double direction_size = 0.0;    // of the direction; 0: none yet
   double direction_most = 0.0;    // its largest component
   double stages_last = 0.0;
-  double rejected_then = 0.0;    // rejected steps when the radius was estimated
+  double rejected_then = 0.0;    // rejected steps at the last estimate
 
   // An underestimate by less than this does no harm
 
@@ -81,21 +81,24 @@ class FixFoamRKC : public FixFoamIntegrate {
   }
   bool start_is_outdated() const
   {
-    return domain->box_change || (others_act() && (radius_given > 0.0 || others_change != 0.0));
+    return domain->box_change || (others_act() && (spectral_given > 0.0 || others_change != 0.0));
   }
 
-  double spectral_radius() const { return radius_given > 0.0 ? radius_given : MARGIN * radius; }
+  double spectral_radius() const
+  {
+    return spectral_given > 0.0 ? spectral_given : MARGIN * spectral;
+  }
 
   // A foam that is new, or that a command has changed, changes fast: bubbles that nearly coincide
-  // alone make the radius that of the inverse of their distance.  There estimates follow after 1, 2,
+  // alone make the spectral radius that of the inverse of their distance.  There estimates follow after 1, 2,
   // 4, ... steps.
 
   bool estimate_due() const
   {
-    if (radius_given > 0.0 || radius_step == accepted) return false;
+    if (spectral_given > 0.0 || spectral_step == accepted) return false;
     if (h_before == 0.0) return true;
     const double most = rejected == rejected_then ? STEPS : FEW;
-    return accepted - radius_step >= std::min(most, std::max(1.0, radius_step - changed_step));
+    return accepted - spectral_step >= std::min(most, std::max(1.0, spectral_step - changed_step));
   }
 
   template <class Space> Foam::Stages stages(Space &here)
@@ -167,9 +170,9 @@ template <int D, class Space> void FixFoamRKC::estimate_in(Space &here, bool com
   auto any_direction = [&] {
     take(here.totals(nlocal, AnyDirection<D, B>{{state(here), q_unit}}));
   };
-  bool kept = direction_size > 0.0 && std::isfinite(direction_size);
-  if (!kept) any_direction();
-  if (kept && rejected != rejected_then) {    // perhaps by an instability
+  bool known = direction_size > 0.0 && std::isfinite(direction_size);    // by the last estimate
+  if (!known) any_direction();
+  if (known && rejected != rejected_then) {    // perhaps by an instability
     const Direction<B> d{state(here), q_unit};
     const double most = reduce(here.totals(nlocal, LargestRate<D, B>{d})).max[COMPONENT];
     if (most > 0.0) take(here.totals(nlocal, JoinRates<D, B>{d, direction_most / most}));
@@ -178,7 +181,7 @@ template <int D, class Space> void FixFoamRKC::estimate_in(Space &here, bool com
   // Forces may depend on more than places: l, and the velocities that other fixes look at, are not what
   // they were when F_0 was evaluated
 
-  Stages y{};
+  Stages y{};    // of no stage here: its first columns take velocities
   if (lagged() || others_act()) {
     y = stages(here);
     here.for_each(nlocal, StepAside<D, B>{state(here), 0.0});
@@ -189,13 +192,13 @@ template <int D, class Space> void FixFoamRKC::estimate_in(Space &here, bool com
     if (compare && others_act()) notice(reduce(mine));
   }
 
-  const double radius_then = radius;
+  const double spectral_then = spectral;
 
   // In a large foam the mode that relaxes fastest is that of a few bubbles, and the rest, which makes up
   // the size of the direction, hides it for long; by the largest component it shows sooner.
 
   for (int n = 0; n < ITERATIONS && direction_most > 0.0; n++) {
-    const double before = radius, amount = aside * Rin / direction_most;
+    const double before = spectral, amount = aside * Rin / direction_most;
     const double most = direction_most / direction_size;
     here.for_each(nlocal, StepAside<D, B>{state(here), amount});
     evaluate(0.0);
@@ -203,19 +206,20 @@ template <int D, class Space> void FixFoamRKC::estimate_in(Space &here, bool com
                                                  rates<D>(here),
                                                  {y.x_before[0], y.x_before[1], y.x_before[2]},
                                                  amount * direction_size}));
-    radius = std::max(direction_size, direction_most / most);
-    if (kept && !(radius > 0.0)) any_direction();    // those that the last one moved are gone
-    kept = false;
-    if (std::fabs(radius - before) <= ENOUGH * radius) break;
+    spectral = std::max(direction_size, direction_most / most);
+    if (known && !(spectral > 0.0))
+      any_direction();    // the bubbles that the last one moved are gone
+    known = false;
+    if (std::fabs(spectral - before) <= ENOUGH * spectral) break;
   }
 
   // The iteration may miss the mode that the last one had found: in a foam that goes on as it was, the
   // estimate falls little by little
 
   if (h_before == 0.0) changed_step = accepted;
-  if (radius_step - changed_step >= STEPS && radius > GONE * radius_then)
-    radius = std::max(radius, FALL * radius_then);
-  radius_step = accepted;
+  if (spectral_step - changed_step >= STEPS && spectral > GONE * spectral_then)
+    spectral = std::max(spectral, FALL * spectral_then);
+  spectral_step = accepted;
   rejected_then = rejected;
 }
 

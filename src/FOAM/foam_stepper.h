@@ -118,6 +118,15 @@ struct StepControl {
     if (!accepted && factor > safety) factor = safety > SHRINK ? safety : SHRINK;
     return factor * h;
   }
+
+  // The next try where bubbles went beyond the neighbor list: allowed is the share of the way that the
+  // farthest may go
+
+  double within(double h, double allowed) const
+  {
+    const double factor = safety * allowed;
+    return (factor > SHRINK ? factor : SHRINK) * h;
+  }
 };
 
 }    // namespace Foam
