@@ -30,7 +30,11 @@ def test_tolerance(lmp, tol, integrator):
         if tol <= 1e-2:
             assert abs(error) < tol**(2 / 3) + 1e-13, f"{error} at t = {frame.time}"    # rounding
     assert frames[-1].time > 0.01
-    assert overlap(frames[-1]) < 0.5 and overlap(frames[-1]) > -2 * tol
+    if tol >= 1.0:
+        # Nothing holds steps back but that they grow 1.9-fold: when they are as long as springs relax, half
+        # of the overlap is gone. The rest goes in one that is too long: 0.15 too far is measured.
+        assert -0.25 < overlap(frames[-1]) < 1e-3
+        assert frames[-1].time > 1e4
 
 
 @cases("integrator", INTEGRATORS)
@@ -54,7 +58,9 @@ def test_limits_of_steps(lmp, dtmax, dt0, integrator):
     h = result.thermo[0]["f_step[2]"]
     assert h.max() <= dtmax
     for frame in result.dump("dump"):
-        assert overlap(frame) == pytest.approx(0.5 * np.exp(-frame.time), abs=1e-4)
+        # tol^(2/3), as above, of what has changed so far; and the rounding of places
+        assert overlap(frame) == pytest.approx(0.5 * np.exp(-frame.time),
+                                               abs=1e-4 * min(1.0, frame.time) + 1e-12)
     if dtmax < 1e-5:
         assert h[-1] == dtmax    # nothing else holds it back
 
@@ -75,7 +81,7 @@ def test_no_step_over_a_bubble(lmp, dim, integrator):
     drives it.  Alone it would be 15 from the start after one step, and 28 after the next."""
     x, drive = np.full((2, dim), 5.0), 0.3
     x[1, 0] += 20.0
-    scene = Scene(x, [1.0, 1.0], [40.0] + [10.0] * (dim - 1), boundary="m p p", integrator=integrator,
+    scene = Scene(x, [1.0, 1.0], [40.0] + [10.0] * (dim - 1), boundary="f p p", integrator=integrator,
                   K=None, dt0=15 * 0.9 / (drive * 1.9**10), skin=0.05, run=2000, every=20, after=f"""
 group held id 2
 group driven id 1
@@ -91,9 +97,21 @@ fix hold held setforce 0 0 0""")
 @cases("step, integrator", ["growth 1e300", "growth 1.0000001", "safety 0.99", "safety 0.01"],
        INTEGRATORS)
 def test_step_control(lmp, step, integrator):
-    """Steps that hardly grow, or grow at once to all that the error allows, or half of them refused."""
-    scene = anywhere(2, 60, 0.9, integrator=integrator, step=step, run=20)
-    assert scene(lmp).thermo[0]["Time"][-1] > 0.0
+    """Steps that hardly grow, or grow at once to all that the error allows; that are too long for it
+    again and again, or far too short."""
+    scene = anywhere(2, 60, 0.9, integrator=integrator, step=step, run=100, thermo=1)
+    thermo = scene(lmp).thermo[0]
+    h, refused, error = (thermo[f"f_step[{k}]"][1:] for k in (2, 4, 6))
+    growth, allowed = h[1:] / h[:-1], error / scene.tol
+    if step == "growth 1e300":
+        assert growth.max() > 2.0    # by default 1.9 is the most
+    elif step == "growth 1.0000001":
+        assert growth == pytest.approx(1.0000001, rel=1e-12)    # what the error allows is more
+    elif step == "safety 0.99":
+        assert refused[-1] > 40    # of 140; 55 to 75 are measured, with 0.9 it is 18 to 31
+    else:
+        # 0.01^3 of the tolerance is aimed at, and met but where contacts open or close
+        assert refused[-1] == 0 and np.median(allowed) == pytest.approx(1e-6, rel=0.02)
 
 
 @cases("dim", [2, 3])
@@ -181,24 +199,29 @@ MANY = 1000000 if FULL else 50000
 @cases("integrator", INTEGRATORS)
 def test_many_steps_at_rest(lmp, integrator):
     """A packing at rest stays where it is."""
-    steps = MANY // (1 if "abm" in integrator else 5)
-    scene = anywhere(2, 12, 1.0, integrator=integrator, K=None, tol=1e-6, dtmax=0.1, run=steps,
-                     every=steps // 10)
+    scene = anywhere(2, 12, 1.0, integrator=integrator, K=None, tol=1e-6, dtmax=0.1, run=MANY,
+                     every=MANY // 10)
     result = scene(lmp, timeout=600)
     energy, frames = result.thermo[0]["PotEng"], result.dump("dump")
     rest = slice(2, None)
     assert np.ptp(energy[rest]) <= 1e-12 * energy[-1]
     x = np.array([frame.array("xu", "yu") for frame in frames])
     # no force from outside: the rounding of a step, 1e-16 of the box, at most adds up
-    assert np.abs(x.mean(1) - x[0].mean(0)).max() < 1e-16 * steps * scene.box[0]
-    assert frames[-1].time == pytest.approx(0.1 * steps, rel=5e-2)    # shorter ones at the start
+    assert np.abs(x.mean(1) - x[0].mean(0)).max() < 1e-16 * MANY * scene.box[0]
+    assert frames[-1].time == pytest.approx(0.1 * MANY, rel=5e-2)    # shorter ones at the start
 
 
 @cases("integrator", INTEGRATORS)
 def test_many_steps_of_exchange(lmp, integrator):
     """Gas goes round for as long: its sum stays."""
-    steps = MANY // (1 if "abm" in integrator else 5)
     scene = anywhere(3, 12, 0.9, spread=0.05, integrator=integrator, K=1e-9, kappa=1.0, dtmax=0.1,
-                     run=steps, every=steps // 10, gas_limit=1e-16 * steps)
-    thermo = scene(lmp, timeout=600).thermo[0]
-    assert thermo["Step"][-1] == steps
+                     run=MANY, every=MANY // 10, gas_limit=1e-16 * MANY)
+    result = scene(lmp, timeout=600)
+    assert result.thermo[0]["Step"][-1] == MANY
+    # gas moves, at rates of 5 % of K / R, and from rest on at those that there were: the radii are still
+    # nearly the same
+    rest, end = result.dump("dump")[2], result.dump("dump")[-1]
+    time, rate = end.time - rest.time, rest["c_b[6]"]
+    assert np.abs(rate).max() > 0.01 * scene.K
+    assert end["radius"] - rest["radius"] == pytest.approx(rate * time,
+                                                           abs=1e-2 * time * np.abs(rate).max())
