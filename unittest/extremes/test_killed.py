@@ -85,7 +85,7 @@ def test_killed_and_continued(lmp, integrator, ranks):
     steps = int(end.step)
     assert steps > 20 * EVERY
 
-    delays = random.Random(5)
+    delays, kills = random.Random(5), 0
     for kill in range(KILLS):
         directory = lmp.directory / f"killed{kill}"
         directory.mkdir()
@@ -93,7 +93,7 @@ def test_killed_and_continued(lmp, integrator, ranks):
             (directory / name).write_text(text)
         text, refused = scene.input(), 0
         for life in range(3):
-            killed(lmp, directory, text, delays.uniform(0.0, 0.3), ranks)
+            kills += killed(lmp, directory, text, delays.uniform(0.0, 0.3), ranks)
             # The newest that can be read. A file read must not be written over before the next one is
             # there: a life that ends in its first restart file leaves none but the one that it came from.
             names = sorted(files(directory), key=files(directory).get, reverse=True)
