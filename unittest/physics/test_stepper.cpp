@@ -173,6 +173,55 @@ TEST(Order, ErrorEstimateIsOfOrderThreeWhichStepControlCountsOn)
   EXPECT_NEAR(order(Scheme::SOURCE, true).estimate, 2.0, SAME_ORDER);
 }
 
+// ---------------------------------------------------------------------- error of a step
+
+TEST(StepError, MaxIsTheLargestComponent)
+{
+  EXPECT_DOUBLE_EQ(step_error(Norm::MAX, 3.0e-4, 1.0e-4, 1000.0, 2.0), 1.5e-4);
+}
+
+TEST(StepError, RmsIsTheMeanOverComponents)
+{
+  EXPECT_DOUBLE_EQ(step_error(Norm::RMS, 3.0e-4, 9.0e-8 * 1000.0, 1000.0, 2.0), 1.5e-4);    // all equal
+  // one in OUTLIER^2 has it all: the largest is just OUTLIER times the mean
+  const double n = OUTLIER * OUTLIER;
+  EXPECT_DOUBLE_EQ(step_error(Norm::RMS, 3.0e-4, 9.0e-8, n, 2.0), 1.5e-4 / OUTLIER);
+}
+
+TEST(StepError, RmsAllowsNoComponentMoreThanOutlierTimesTheTolerance)
+{
+  StepControl c;
+  c.tolerance = 1.0e-4;
+  const double Rin = 2.0, most = OUTLIER * c.tolerance * Rin, many = 1.0e9;
+  for (const double share : {0.9, 0.999}) {
+    const double one = share * most;
+    EXPECT_TRUE(c.accepts(step_error(Norm::RMS, one, one * one, many, Rin)));
+  }
+  for (const double share : {1.001, 1.1, 1.0e3}) {
+    const double one = share * most;    // among so many the mean is far below the tolerance
+    ASSERT_LT(std::sqrt(one * one / many), 0.1 * c.tolerance * Rin * share);
+    EXPECT_FALSE(c.accepts(step_error(Norm::RMS, one, one * one, many, Rin)));
+    EXPECT_DOUBLE_EQ(step_error(Norm::RMS, one, one * one, many, Rin), share * c.tolerance);
+  }
+}
+
+TEST(StepError, NoBubbles)
+{
+  for (const Norm norm : {Norm::MAX, Norm::RMS})
+    EXPECT_EQ(step_error(norm, 0.0, 0.0, 0.0, 2.0), 0.0);
+}
+
+TEST(StepError, WhatIsNoNumberIsNotAccepted)
+{
+  // the square of a component is in the sum, whatever becomes of it in the maximum
+  StepControl c;
+  for (const double bad : {double(NAN), double(INFINITY)}) {
+    EXPECT_FALSE(c.accepts(step_error(Norm::MAX, bad, bad, 1000.0, 2.0)));
+    for (const double largest : {0.0, bad})
+      EXPECT_FALSE(c.accepts(step_error(Norm::RMS, largest, bad, 1000.0, 2.0)));
+  }
+}
+
 // ---------------------------------------------------------------------- step control
 
 namespace {
