@@ -200,6 +200,8 @@ def bad_scripts():
     yield "bonds", script(atom="atom_style hybrid sphere 1 bond", read=BOND), \
         "Fix foam/abm .*bonds.* not allowed|MOLECULE package which is not enabled"
     yield "random forces", with_line("fix l all langevin 1 1 1 3"), "Fix foam/abm", "fix langevin"
+    yield ("another timestep", with_line("fix l all dt/reset 1 1e-3 1e-1 0.1 units box"),
+           "Fix foam/abm", "fix dt/reset")
     yield "radii of another fix", with_line("variable a equal 2\nfix a all adapt 1 atom diameter v_a"), \
         "Fix foam/abm", "fix adapt", "radii"
     for units in "real", "metal", "electron":

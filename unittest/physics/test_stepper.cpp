@@ -175,6 +175,18 @@ TEST(Order, ErrorEstimateIsOfOrderThreeWhichStepControlCountsOn)
 
 // ---------------------------------------------------------------------- error of a step
 
+// A try that went beyond the neighbor list is repeated with as much of the step as stays within, but for a
+// margin, and at least a fifth
+
+TEST(StepControl, WithinTheList)
+{
+  const StepControl control;
+  EXPECT_DOUBLE_EQ(control.within(2.0, 0.5), 2.0 * 0.9 * 0.5);
+  EXPECT_LT(control.within(2.0, 0.999), 2.0);
+  EXPECT_DOUBLE_EQ(control.within(2.0, 1.0e-9), 2.0 * 0.2);
+  EXPECT_DOUBLE_EQ(control.within(2.0, 0.0), 2.0 * 0.2);
+}
+
 TEST(StepError, MaxIsTheLargestComponent)
 {
   EXPECT_DOUBLE_EQ(step_error(Norm::MAX, 3.0e-4, 1.0e-4, 1000.0, 2.0), 1.5e-4);
@@ -182,7 +194,8 @@ TEST(StepError, MaxIsTheLargestComponent)
 
 TEST(StepError, RmsIsTheMeanOverComponents)
 {
-  EXPECT_DOUBLE_EQ(step_error(Norm::RMS, 3.0e-4, 9.0e-8 * 1000.0, 1000.0, 2.0), 1.5e-4);    // all equal
+  EXPECT_DOUBLE_EQ(step_error(Norm::RMS, 3.0e-4, 9.0e-8 * 1000.0, 1000.0, 2.0),
+                   1.5e-4);    // all equal
   // one in OUTLIER^2 has it all: the largest is just OUTLIER times the mean
   const double n = OUTLIER * OUTLIER;
   EXPECT_DOUBLE_EQ(step_error(Norm::RMS, 3.0e-4, 9.0e-8, n, 2.0), 1.5e-4 / OUTLIER);
