@@ -155,7 +155,8 @@ SCENES = {
     "restarts written": dict(after="restart 20 state.*", ranks=2),
     "integrator again": dict(run="run 60\nunfix step\nfix step all foam/abm 1e-3\nrun 60"),
     "exchange again": dict(step="1e-3 norm max", run="run 60\nunfix gas\nfix gas all foam/coarsen 0.1 0.2\nrun 60"),
-    "no exchange later": dict(run="run 60\nthermo_style custom step atoms time pe f_step[*]\n"
+    "no exchange later": dict(step="1e-3 norm max",
+                              run="run 60\nthermo_style custom step atoms time pe f_step[*]\n"
                                   f"{PRECISE}unfix gas\nrun 60"),
     "drag changed": dict(run="run 60\npair_style durian/foam 1.0 drag neighbor\n"
                              "pair_coeff * * 1.0\nrun 60"),
