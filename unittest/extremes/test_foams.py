@@ -50,8 +50,10 @@ def test_spread_of_radii(lmp, dim, spread, integrator):
     scene = anywhere(dim, 200, 0.9, spread=spread, integrator=integrator, run=400, K=0.1)
     result = scene(lmp)
     thermo, R = result.thermo[0], last(result)["radius"]
-    assert R.max() > scene.R.max() and R.std() / R.mean() > scene.R.std() / scene.R.mean()
-    if spread > 0.1:    # equal sizes part first: until the small are gone, the mean falls
+    assert R.max() > scene.R.max()
+    if spread < 0.1:    # equal sizes part first: until the small are gone, the mean falls
+        assert R.std() / R.mean() > scene.R.std() / scene.R.mean()
+    else:
         assert thermo["f_gas[7]"][-1] > 0
         assert thermo["f_gas[3]"][-1] > 1.0
 
