@@ -28,7 +28,7 @@ using namespace FixConst;
 
 FixFoamCoarsen::FixFoamCoarsen(LAMMPS *lmp, int narg, char **arg)
     : Fix(lmp, narg, arg), pair(nullptr), law(Foam::LiquidLaw::AREA), rmin(0.1), ain_given(0.0),
-      nmin(0), rho(0.0), time(0.0), removed_bubbles(0.0), removed_gas(0.0), dead(false)
+      nmin(0), rho(0.0), dead(false)
 {
   if (igroup != 0)
     error->all(FLERR, "Fix foam/coarsen needs group all, since gas exchange couples all bubbles");
@@ -37,32 +37,69 @@ FixFoamCoarsen::FixFoamCoarsen(LAMMPS *lmp, int narg, char **arg)
   FoamInput input(error, "Fix foam/coarsen", narg - 3, arg + 3);
   K = input.argument("K").number(FoamInput::AT_LEAST, 0.0);
   kappa = input.argument("kappa").number(FoamInput::AT_LEAST, 0.0);
-  input.keywords(
-      {{"rmin",
-        [&](const Value &v) {
-          rmin = v.number(FoamInput::AT_LEAST, 0.0);
-        }},
-       {"film",
-        [&](const Value &v) {
-          through_films = v.one_of({"no", "yes"});
-        }},
-       {"liquid",
-        [&](const Value &v) {
-          law = v.one_of({"area", "lsw"}) == 1 ? Foam::LiquidLaw::LSW : Foam::LiquidLaw::AREA;
-        }},
-       {"nmin",
-        [&](const Value &v) {
-          nmin = v.count();
-        }},
-       {"ain", [&](const Value &v) {
-          ain_given = v.number(FoamInput::ABOVE, 0.0);
-        }}});
+  FoamInput::Keywords all = keywords();
+  all.push_back({"ain", [&](const Value &v) {
+                   ain_given = v.number(FoamInput::ABOVE, 0.0);
+                 }});
+  input.keywords(all);
 
   vector_flag = 1;
-  size_vector = 8;
+  size_vector = 10;
   global_freq = 1;
   extvector = 0;
   restart_global = 1;
+}
+
+FoamInput::Keywords FixFoamCoarsen::keywords()
+{
+  using Value = FoamInput::Value;
+  return {{"rmin",
+           [&](const Value &v) {
+             rmin = v.number(FoamInput::AT_LEAST, 0.0);
+           }},
+          {"film",
+           [&](const Value &v) {
+             through_films = v.one_of({"no", "yes"});
+           }},
+          {"liquid",
+           [&](const Value &v) {
+             law = v.one_of({"area", "lsw"}) == 1 ? Foam::LiquidLaw::LSW : Foam::LiquidLaw::AREA;
+           }},
+          {"nmin", [&](const Value &v) {
+             nmin = v.count();
+           }}};
+}
+
+// between two runs: LAMMPS hands over all words that are left, and takes one keyword with its value
+
+int FixFoamCoarsen::modify_param(int narg, char **arg)
+{
+  using Value = FoamInput::Value;
+  FoamInput::Keywords all = keywords();
+  all.push_back({"K", [&](const Value &v) {
+                   K = v.number(FoamInput::AT_LEAST, 0.0);
+                 }});
+  all.push_back({"kappa", [&](const Value &v) {
+                   kappa = v.number(FoamInput::AT_LEAST, 0.0);
+                 }});
+  all.push_back({"tau", [&](const Value &v) {
+                   const double tau = v.number(FoamInput::AT_LEAST, 0.0);
+                   if (!find_pair())
+                     error->all(FLERR,
+                                "Fix foam/coarsen: fix_modify tau needs pair_style durian/foam");
+                   pair->tau = tau;
+                 }});
+  FoamInput input(error, "Fix foam/coarsen: fix_modify", MIN(narg, 2), arg);
+  input.keywords(all);
+  return 2;
+}
+
+// it may have been replaced since the last run
+
+bool FixFoamCoarsen::find_pair()
+{
+  pair = dynamic_cast<PairDurianFoam *>(force->pair_match("durian/foam", 0));
+  return pair;
 }
 
 int FixFoamCoarsen::setmask()
@@ -72,8 +109,7 @@ int FixFoamCoarsen::setmask()
 
 void FixFoamCoarsen::init()
 {
-  pair = dynamic_cast<PairDurianFoam *>(force->pair_match("durian/foam", 0));
-  if (!pair) error->all(FLERR, "Fix foam/coarsen needs one pair_style durian/foam");
+  if (!find_pair()) error->all(FLERR, "Fix foam/coarsen needs one pair_style durian/foam");
   if (modify->get_fix_by_style("^foam/coarsen").size() > 1)
     error->all(FLERR, "Fix foam/coarsen: only one fix of this style can be used at a time");
   bool integrated = false;
@@ -81,7 +117,7 @@ void FixFoamCoarsen::init()
     if (dynamic_cast<FixFoamIntegrate *>(ifix)) integrated = true;
   if (!integrated)
     error->all(FLERR,
-               "Fix foam/coarsen needs a fix that integrates the foam, such as fix foam/abm");
+               "Fix foam/coarsen needs a fix that integrates the foam, fix foam/rkc or foam/abm");
 }
 
 unsigned FixFoamCoarsen::wanted() const
@@ -101,9 +137,9 @@ double FixFoamCoarsen::smallest_radius() const
 
 void FixFoamCoarsen::accepted(double h, double removed, double gas_removed)
 {
-  time += h;
-  removed_bubbles += removed;
-  removed_gas += gas_removed;
+  pair->tau += Foam::scaled_time(K, h, pair->rin);
+  pair->removed_bubbles += removed;
+  pair->removed_gas += gas_removed;
   if (removed > 0.0) dead = true;
 }
 
@@ -177,14 +213,14 @@ void FixFoamCoarsen::count_living()
 
 double FixFoamCoarsen::compute_vector(int n)
 {
-  pair = dynamic_cast<PairDurianFoam *>(force->pair_match("durian/foam", 0));
-  if (!pair || !(pair->rin > 0.0)) return 0.0;    // replaced since the last run, or there was none
+  if (!find_pair() || !(pair->rin > 0.0))
+    return 0.0;    // replaced since the last run, or there was none
   double box = domain->xprd * domain->yprd;
   if (domain->dimension == 3) box *= domain->zprd;
   const double N = population.bubbles;
   switch (n) {
     case 0:
-      return Foam::scaled_time(K, time, pair->rin);
+      return pair->tau;
     case 1:
       return N;
     case 2:
@@ -196,27 +232,27 @@ double FixFoamCoarsen::compute_vector(int n)
     case 5:
       return critical_radius();
     case 6:
-      return removed_bubbles;
+      return pair->removed_bubbles;
+    case 7:
+      return pair->removed_gas;
+    case 8:
+      return pair->rin;
     default:
-      return removed_gas;
+      return mean_surface();
   }
 }
 
 void FixFoamCoarsen::write_restart(FILE *fp)
 {
-  const double values[4] = {time, removed_bubbles, removed_gas, critical_radius()};
+  const double value = critical_radius();    // the rest is in the pair style's record
   if (comm->me == 0) {
-    const int size = sizeof(values);
+    const int size = sizeof(value);
     fwrite(&size, sizeof(int), 1, fp);
-    fwrite(values, sizeof(double), 4, fp);
+    fwrite(&value, size, 1, fp);
   }
 }
 
 void FixFoamCoarsen::restart(char *buf)
 {
-  const auto *values = (const double *) buf;
-  time = values[0];
-  removed_bubbles = values[1];
-  removed_gas = values[2];
-  keep_critical_radius(values[3]);
+  keep_critical_radius(*(const double *) buf);
 }

@@ -17,6 +17,7 @@ FixStyle(foam/coarsen,FixFoamCoarsen);
 #define LMP_FIX_FOAM_COARSEN_H
 
 #include "fix.h"
+#include "foam_input.h"
 #include "foam_loops.h"
 #include "pair_durian_foam.h"
 
@@ -35,6 +36,7 @@ class FixFoamCoarsen : public Fix {
   void setup_pre_exchange() override;
   void pre_exchange() override;
   void post_run() override;
+  int modify_param(int, char **) override;
   double compute_vector(int) override;
   void write_restart(FILE *) override;
   void restart(char *) override;
@@ -59,7 +61,7 @@ class FixFoamCoarsen : public Fix {
     gas.kappa = kappa;
     gas.law = law;
     gas.Rin = pair->rin;
-    gas.Ain = ain_given > 0.0 ? ain_given : pair->ain;
+    gas.Ain = mean_surface();
     if (through_films) gas.film = here.column(pair->film, 0);
     gas.area = here.column(pair->area, 0);
     using Body = Foam::LiquidSums<D, typename Space::Bubbles>;
@@ -96,10 +98,11 @@ class FixFoamCoarsen : public Fix {
   bigint nmin;
   double rho;
   const double *rho_elsewhere = nullptr;    // see Foam::Sums
-  double time;                              // spent coarsening
-  double removed_bubbles, removed_gas;
   bool dead;    // there are removed bubbles, on any rank, that are not yet taken out
 
+  bool find_pair();
+  FoamInput::Keywords keywords();    // of fix and fix_modify alike
+  double mean_surface() const { return ain_given > 0.0 ? ain_given : pair->ain; }    // <A_in>
   virtual void take_out_dead();
   virtual void count_living();
 };

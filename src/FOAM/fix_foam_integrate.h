@@ -93,9 +93,10 @@ class FixFoamIntegrate : public Fix {
   double h_before = 0.0;    // step between f_{n-1} and f_n; 0 without history
   double h_last = 0.0;      // last accepted step
   double accepted = 0.0, rejected = 0.0, evaluations = 0.0, error_last = 0.0;
-  double bubbles_last = 0.0;                // their number at the end of the last run
-  double rin_kept = 0.0, ain_kept = 0.0;    // for a pair style that is replaced in mid-simulation
-  double have_lags = 0.0;                   // 1 if LAG and LAST are those of a previous run
+  double bubbles_last = 0.0;        // their number at the end of the last run
+  double dt_given = 0.0;            // of the timestep command, put back after a run
+  PairDurianFoam::Record record;    // for a pair style that is replaced in mid-simulation
+  double have_lags = 0.0;           // 1 if LAG and LAST are those of a previous run
   virtual std::vector<double *> progress();
 
   // per bubble, travelling with it; those of the step before are for the scheme to use
@@ -211,7 +212,9 @@ class FixFoamIntegrate : public Fix {
   bool stopping = false;          // the run has reached its end
   bigint outlisted = 0;           // tries of this run that went beyond the list
   double accepted_then = 0.0;     // steps before this run
+  double time_then = 0.0;         // t when LAMMPS' fixes were initialised last
   bool deform_told = false;       // what its styles make of changing steps
+  bool idle_told = false;         // that no gas is exchanged
   bigint dump_foreseen = -1;      // step for which energies of bubbles were asked for in time
   int delay_given = -1;           // neigh_modify delay, which does not count during a run
   FoamTotals totals;              // of a candidate, over all ranks
@@ -221,6 +224,8 @@ class FixFoamIntegrate : public Fix {
   void check_bubbles();
   void check_ghosts();
   void give_lags();
+  void check_deform(Fix *);
+  std::string worst_bubble();
   template <int D> FoamTotals change_of_rates();
   void take_population();
   void judge(const FoamTotals &mine);

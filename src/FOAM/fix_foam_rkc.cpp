@@ -27,7 +27,7 @@ FixFoamRKC::FixFoamRKC(LAMMPS *lmp, int narg, char **arg) : FixFoamIntegrate(lmp
                spectral_given = v.is("auto") ? 0.0 : v.number(FoamInput::ABOVE, 0.0);
              }}});
   add_callbacks();
-  size_vector = 8;
+  size_vector = 9;
 }
 
 FoamTotals FixFoamRKC::attempt(double step, bool first)
@@ -66,7 +66,7 @@ std::vector<double *> FixFoamRKC::progress()
 
 double FixFoamRKC::compute_vector(int n)
 {
-  if (n == 6) return stages_last;
-  if (n == 7) return spectral_given > 0.0 ? spectral_given : spectral;
+  if (n == 7) return stages_last;
+  if (n == 8) return spectral_given > 0.0 ? spectral_given : spectral;
   return FixFoamIntegrate::compute_vector(n);
 }

@@ -19,6 +19,13 @@
 #include "pair_durian_foam_kokkos.h"
 #endif
 
+#include "comm.h"
+#include "lammps.h"
+#include "utils.h"
+
+#include <functional>
+#include <string>
+
 using namespace LAMMPS_NS;
 
 // The C interface by which a plugin announces a style, as documented on LAMMPS' page "Writing
@@ -67,12 +74,18 @@ void lammpsplugin_init(void *lmp, void *handle, void *regfunc)
   plugin.author = "lammps-foam";
   plugin.handle = handle;
 
+  std::string styles;
+  std::function<void(const char *, const std::string &)> brought = [&](const char *category,
+                                                                       const std::string &name) {
+    styles += fmt::format("{}{} {}", styles.empty() ? "" : ", ", category, name);
+  };
   auto pair = [&]<class Style>(const char *name) {
     plugin.style = "pair";
     plugin.name = name;
     plugin.info = "pair style durian/foam: bubbles that touch, Durian's bubble model";
     plugin.creator.v1 = make_pair_style<Style>;
     announce(&plugin, lmp);
+    brought("pair_style", name);
   };
   auto fix = [&]<class Style>(const char *name, const char *info) {
     plugin.style = "fix";
@@ -80,6 +93,7 @@ void lammpsplugin_init(void *lmp, void *handle, void *regfunc)
     plugin.info = info;
     plugin.creator.v2 = make_style<Fix, Style>;
     announce(&plugin, lmp);
+    brought("fix", name);
   };
   auto compute = [&]<class Style>(const char *name) {
     plugin.style = "compute";
@@ -87,6 +101,7 @@ void lammpsplugin_init(void *lmp, void *handle, void *regfunc)
     plugin.info = "compute foam/bubble: contacts, free surface and growth of each bubble";
     plugin.creator.v2 = make_style<Compute, Style>;
     announce(&plugin, lmp);
+    brought("compute", name);
   };
   const char *const coarsen = "fix foam/coarsen: gas exchange between bubbles";
   const char *const abm = "fix foam/abm: adaptive Adams-Bashforth-Moulton steps";
@@ -99,6 +114,9 @@ void lammpsplugin_init(void *lmp, void *handle, void *regfunc)
   compute.operator()<ComputeFoamBubble>("foam/bubble");
 
 #ifdef FOAM_KOKKOS
+  styles += ", each also with /kk";
+  brought = [](const char *, const std::string &) {
+  };
   pair.operator()<PairDurianFoamKokkos<LMPDeviceType>>("durian/foam/kk");
   fix.operator()<FixFoamCoarsenKokkos<LMPDeviceType>>("foam/coarsen/kk", coarsen);
   fix.operator()<FixFoamABMKokkos<LMPDeviceType>>("foam/abm/kk", abm);
@@ -117,4 +135,9 @@ void lammpsplugin_init(void *lmp, void *handle, void *regfunc)
   fix.operator()<FixFoamRKCKokkos<LMPHostType>>("foam/rkc/kk/host", rkc);
   compute.operator()<ComputeFoamBubbleKokkos<LMPHostType>>("foam/bubble/kk/host");
 #endif
+
+  // lmp -h was made before any plugin came
+
+  auto *const lammps = static_cast<LAMMPS *>(lmp);
+  if (lammps->comm->me == 0) utils::logmesg(lammps, "Foam package: {}\n", styles);
 }

@@ -19,10 +19,12 @@
 #include "error.h"
 #include "fix.h"
 #include "force.h"
+#include "input.h"
 #include "memory.h"
 #include "modify.h"
 #include "neigh_list.h"
 #include "neighbor.h"
+#include "update.h"
 
 #include <cmath>
 #include <algorithm>
@@ -33,6 +35,9 @@ using namespace LAMMPS_NS;
 
 // most values a bubble can have in reverse communication: all sums at once
 static constexpr int MAX_SUMS = 8;
+
+// numbers of a restart file
+static constexpr int SETTINGS = 10;
 
 /* ---------------------------------------------------------------------- */
 
@@ -280,6 +285,8 @@ void PairDurianFoam::init_style()
         FLERR,
         "Pair style durian/foam needs consistent units: use units lj, si, cgs, micro or nano");
 
+  check_companions();
+
   // the drag asks for the neighbors' velocities; this is read by Comm::init() further on
 
   if (neighbor_drag) comm->ghost_velocity = 1;
@@ -313,6 +320,37 @@ void PairDurianFoam::init_style()
 
   if (domain->dimension == 2) fit_thickness();
   neighbor->add_request(this, list_flags);
+}
+
+// LAMMPS commands that run beside a foam and give wrong numbers without a word of their own
+
+void PairDurianFoam::check_companions()
+{
+  const bool rerun = input->command && strcmp(input->command, "rerun") == 0;
+  if (rerun && !modify->get_fix_by_style("^foam/coarsen").empty())
+    error->all(
+        FLERR,
+        "Pair style durian/foam: rerun reads no radii and keeps bubbles that have vanished, so "
+        "that a foam with fix foam/coarsen would be another one: write restart or data files "
+        "during the run and read these");
+  if (companions_told || comm->me != 0) return;
+  if (rerun) {
+    companions_told = true;
+    error->warning(
+        FLERR, "Pair style durian/foam: rerun takes places from the dump, but neither radii nor "
+               "the number of bubbles: energies and contacts are right only for a foam that has "
+               "not coarsened");
+  }
+  if (update->whichflag != 1) return;
+  for (auto &ifix : modify->get_fix_list())
+    if (ifix->time_integrate && !utils::strmatch(ifix->style, "^foam/")) {
+      companions_told = true;
+      error->warning(
+          FLERR,
+          "Pair style durian/foam: fix {} moves the bubbles by their inertia, without the "
+          "drag mu0: massless bubbles are moved by fix foam/rkc or foam/abm",
+          ifix->style);
+    }
 }
 
 // LAMMPS keeps each image of a bubble that others can touch, and sorts bubbles into bins half a cutoff
@@ -378,13 +416,25 @@ double PairDurianFoam::init_one(int i, int j)
   return 2.0 * cutoff_radius;
 }
 
-// a new pair style in the middle of a simulation takes the means over, if not given its own
+// a new pair style in the middle of a simulation takes over what is not given anew
 
-void PairDurianFoam::keep_means(double rin_kept, double ain_kept)
+void PairDurianFoam::go_on_from(const Record &before)
 {
-  if (!rin_fixed) rin = rin_kept;
-  if (!ain_fixed) ain = ain_kept;
+  if (ain_fixed) return;    // it is not new
+  if (!rin_fixed) rin = before.rin;
+  ain = before.ain;
   rin_fixed = ain_fixed = true;
+  tau = before.tau;
+  removed_bubbles = before.removed_bubbles;
+  removed_gas = before.removed_gas;
+  tell_means("as before");
+}
+
+void PairDurianFoam::tell_means(const char *whence) const
+{
+  if (comm->me == 0)
+    utils::logmesg(lmp, "Pair style durian/foam: <R_in> = {:.8}, <A_in> = {:.8}, {}\n", rin, ain,
+                   whence);
 }
 
 void PairDurianFoam::setup()
@@ -394,6 +444,21 @@ void PairDurianFoam::setup()
                "Pair style durian/foam: the mean radius <R_in> is {}, so there is no bubble "
                "with a radius > 0: create bubbles, set their diameters or give keyword rin",
                rin);
+  if (rin_fixed && ain_fixed) return;
+  tell_means(rin_fixed ? "the former as given" : "means of the present bubbles");
+
+  // IDs are not used twice: gaps are left by bubbles that have vanished
+
+  tagint mine = 0, largest;
+  for (int i = 0; i < atom->nlocal; i++) mine = MAX(mine, atom->tag[i]);
+  MPI_Allreduce(&mine, &largest, 1, MPI_LMP_TAGINT, MPI_MAX, world);
+  if (!rin_fixed && largest > atom->natoms && comm->me == 0)
+    error->warning(
+        FLERR,
+        "Pair style durian/foam: the IDs of {} bubbles go up to {}, as in a foam that has "
+        "coarsened already: then give its first mean radius by keyword rin, else use "
+        "reset_atoms id",
+        atom->natoms, largest);
   rin_fixed = ain_fixed = true;
 }
 
@@ -482,16 +547,17 @@ void PairDurianFoam::read_restart(FILE *fp)
 
 void PairDurianFoam::write_restart_settings(FILE *fp)
 {
-  const double values[7] = {
-      mu0, rin, double(rin_fixed), ain, double(ain_fixed), double(neighbor_drag), headroom};
-  fwrite(values, sizeof(double), 7, fp);
+  const double values[SETTINGS] = {
+      mu0,      rin, double(rin_fixed), ain,        double(ain_fixed), double(neighbor_drag),
+      headroom, tau, removed_bubbles,   removed_gas};
+  fwrite(values, sizeof(double), SETTINGS, fp);
 }
 
 void PairDurianFoam::read_restart_settings(FILE *fp)
 {
-  double values[7];
-  if (comm->me == 0) utils::sfread(FLERR, values, sizeof(double), 7, fp, nullptr, error);
-  MPI_Bcast(values, 7, MPI_DOUBLE, 0, world);
+  double values[SETTINGS];
+  if (comm->me == 0) utils::sfread(FLERR, values, sizeof(double), SETTINGS, fp, nullptr, error);
+  MPI_Bcast(values, SETTINGS, MPI_DOUBLE, 0, world);
   mu0 = values[0];
   rin = values[1];
   rin_fixed = values[2] != 0.0;
@@ -499,17 +565,22 @@ void PairDurianFoam::read_restart_settings(FILE *fp)
   ain_fixed = values[4] != 0.0;
   neighbor_drag = values[5] != 0.0;
   headroom = values[6];
+  tau = values[7];
+  removed_bubbles = values[8];
+  removed_gas = values[9];
 
   // LAMMPS reads what is there, be it a damaged file or that of another version of this style
 
-  const bool sound = mu0 > 0.0 && rin >= 0.0 && ain >= 0.0 && headroom >= 1.0;
-  if (!sound || !std::isfinite(mu0 + rin + ain + headroom))
+  const bool sound = mu0 > 0.0 && rin >= 0.0 && ain >= 0.0 && headroom >= 1.0 && tau >= 0.0 &&
+                     removed_bubbles >= 0.0;
+  if (!sound || !std::isfinite(mu0 + rin + ain + headroom + tau + removed_bubbles + removed_gas))
     error->all(
         FLERR,
         "Pair style durian/foam: the restart file has mu0 {} (must be > 0), mean radius {} and "
-        "mean surface {} (must be >= 0), headroom {} (must be >= 1): it is damaged, or of "
-        "another version of this style",
-        mu0, rin, ain, headroom);
+        "mean surface {} (must be >= 0), headroom {} (must be >= 1), tau {} and {} removed bubbles "
+        "(must be >= 0): it is damaged, or of another version of this style",
+        mu0, rin, ain, headroom, tau, removed_bubbles);
+  if (rin_fixed && ain_fixed) tell_means("from the restart file");
 }
 
 void PairDurianFoam::write_data(FILE *fp)

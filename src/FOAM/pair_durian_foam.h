@@ -49,10 +49,20 @@ class PairDurianFoam : public Pair {
   void refresh();    // cutoffs, ghosts and bins for bubbles that have grown
   bool outgrown(double R) const { return R > cutoff_radius; }    // have bubbles of this radius?
   double stiffest() const;                                       // largest sigma0
-  void keep_means(double, double);    // <R_in>, <A_in> of a simulation that goes on
 
-  double mu0;             // drag coefficient
-  double rin, ain;        // <R_in>, <A_in>: means at the start of the first run
+  // What belongs to the simulation as a whole, from its first run on, through later ones and restarts
+
+  struct Record {
+    double rin = 0.0, ain = 0.0;    // <R_in>, <A_in>: means at the start of the first run
+    double tau = 0.0;               // integral of K dt / <R_in>^2
+    double removed_bubbles = 0.0, removed_gas = 0.0;
+  };
+  Record record() const { return {rin, ain, tau, removed_bubbles, removed_gas}; }
+  void go_on_from(const Record &);    // for a pair style that replaces another
+  double tau = 0.0, removed_bubbles = 0.0, removed_gas = 0.0;    // counted by fix foam/coarsen
+
+  double mu0;    // drag coefficient
+  double rin, ain;
   bool neighbor_drag;     // drag relative to neighbors' mean velocity or to a liquid at rest
   unsigned gas_wanted;    // set by the integrator: Foam::FILM, AREA to gather in each compute()
 
@@ -89,6 +99,9 @@ class PairDurianFoam : public Pair {
   unsigned gathered;            // what is sent in reverse communication
 
   void allocate();
+  void check_companions();
+  void tell_means(const char *whence) const;
+  bool companions_told = false;
   void check_images(double largest);
   void fit_thickness();
   void gather(unsigned);

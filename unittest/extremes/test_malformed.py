@@ -216,9 +216,9 @@ def bad_scripts():
     for d in "1e5", "1e300":
         yield f"diameter {d}", with_line(f"set atom 1 diameter {d}"), "durian/foam", "radius", "below"
 
-    yield "beyond the last value", script(thermo="thermo_style custom step f_gas[9]"), "fix gas"
+    yield "beyond the last value", script(thermo="thermo_style custom step f_gas[11]"), "fix gas"
     yield "a column of a vector", script(dump="dump d all custom 1 dump id c_b[2]"), "compute b"
-    yield "fix_modify", with_line("fix_modify gas colour yes"), "foam/coarsen", "fix_modify colour"
+    yield "fix_modify", with_line("fix_modify gas colour yes"), "foam/coarsen: fix_modify", "unknown keyword colour"
     yield "integrator taken away", after_run("unfix step", "run 1", thermo=None), \
         "Fix foam/coarsen needs", "foam/abm"
     yield "pair style taken away", after_run("pair_style none", "run 1", compute=None, dump=None), \

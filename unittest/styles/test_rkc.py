@@ -86,13 +86,13 @@ def test_spectral_radius_is_the_largest_eigenvalue(lmp, dim):
     exact = np.abs(np.linalg.eigvalsh(hessian(x, R, box, sigma0 * rin))).max()
     tables, _ = run(lmp, dim, x, R, [box] * dim, "1e-3 dtmax 1e-9", "run 500", sigma0=sigma0,
                     pair=f"rin {rin}")
-    estimate = tables[0]["f_step[8]"][1:]
+    estimate = tables[0]["f_step[9]"][1:]
     # finite differences over 1e-6 of a radius, in which a contact may open or close
     assert np.max(estimate) < exact * (1 + 1e-4)
     assert estimate[0] > 0.8 * exact
     assert MARGIN * estimate[-1] > exact
     assert np.all(np.diff(estimate) > -0.02 * exact)    # 2 % is what an estimate may still change by
-    assert np.all(tables[0]["f_step[7]"][1:] == 3)
+    assert np.all(tables[0]["f_step[8]"][1:] == 3)
 
 
 @pytest.mark.parametrize("ranks", [1, 2])
@@ -101,7 +101,7 @@ def test_spectral_radius_of_two_bubbles(lmp, ranks):
     x, R, box = pair_of(2, 1.9)
     tables, _ = run(lmp, 2, x, R, box, "1e-3 dt0 1e-3", sigma0=3.0, ranks=ranks)
     # of finite differences over 1e-6: second derivatives, and rounding
-    assert tables[0]["f_step[8]"][-1] == pytest.approx(2 * 3.0 * R.mean() / R.sum(), rel=1e-5)
+    assert tables[0]["f_step[9]"][-1] == pytest.approx(2 * 3.0 * R.mean() / R.sum(), rel=1e-5)
 
 
 @pytest.mark.parametrize("dim", [2, 3])
@@ -116,14 +116,14 @@ def test_spectral_radius_of_gas_exchange(lmp, dim):
 
     exact = abs(rate(np.array([e, -e])) - rate(np.array([-e, e]))) / (2 * e)
     tables, _ = run(lmp, dim, x, R, box, "1e-3 dt0 1e-4", gas=f"{K} 0 rmin 0", sigma0=0.0)
-    assert tables[0]["f_step[8]"][-1] == pytest.approx(exact, rel=1e-4)
+    assert tables[0]["f_step[9]"][-1] == pytest.approx(exact, rel=1e-4)
 
 
 def test_spectral_radius_of_another_foam(lmp):
     """Springs ten times as stiff from one run to the next: known from the first step on."""
     x, R, _, box = foam(2, 6)
     tables, _ = run(lmp, 2, x, R, [box] * 2, "1e-3", "run 100\npair_coeff * * 10.0\nrun 1")
-    before, after = tables[0]["f_step[8]"][-1], tables[1]["f_step[8]"][-1]
+    before, after = tables[0]["f_step[9]"][-1], tables[1]["f_step[9]"][-1]
     # not to the last digit, since estimates end at a change of 2 %
     assert after == pytest.approx(10 * before, rel=0.2)
 
@@ -133,7 +133,7 @@ def test_estimate_falls_slowly(lmp):
     cost 7 rejected steps and 20 short ones.  Without the limit it falls to 0.58 of the last one here."""
     x, R, _, box = foam(2, 16)
     tables, _ = run(lmp, 2, x, R, [box] * 2, "1e-4", "run 600", gas="1e-3 0.1")
-    radius = tables[0]["f_step[8]"][42:]    # before, the foam counts as new
+    radius = tables[0]["f_step[9]"][42:]    # before, the foam counts as new
     ratio = radius[1:] / radius[:-1]
     assert np.all((ratio > 0.9 * (1 - SAME)) | (ratio < 0.5))
     assert ratio.min() < 1 < ratio.max()
@@ -146,8 +146,8 @@ def test_nothing_moves(lmp):
             tables, frames = run(lmp, 2, np.array(x), np.ones(len(x)), [12.0] * 2,
                                  "1e-3 dt0 0.1 dtmax 5", "run 60", gas=gas, every=60)
             last = {name: column[-1] for name, column in tables[0].items()}
-            assert last["f_step[8]"] == 0
-            assert last["f_step[7]"] == 3
+            assert last["f_step[9]"] == 0
+            assert last["f_step[8]"] == 3
             assert last["f_step[2]"] == 5
             assert last["f_step[4]"] == 0
             assert np.array_equal(frames[-1].array("xu", "yu"), x)
@@ -202,7 +202,7 @@ def test_given_stages_limit_the_step(lmp, number):
     rate = 2 * R.mean() / R.sum()
     tables, frames = run(lmp, 2, x, R, box, f"1e-3 dt0 1e-3 stages {number} spectral {rate:.17g}",
                          "run 120")
-    h, stages = tables[0]["f_step[2]"][1:], tables[0]["f_step[7]"][1:]
+    h, stages = tables[0]["f_step[2]"][1:], tables[0]["f_step[8]"][1:]
     assert np.all(stages == number)
     assert h[-1] == pytest.approx(stable(number) / rate, rel=SAME)
     assert np.max(h) <= h[-1] * (1 + SAME)
@@ -214,7 +214,7 @@ def test_long_steps_are_stable(lmp):
     """Steps of 1000 relaxation times in 80 stages: the foam rests, and stays at rest."""
     x, R, _, box = foam(2, 6)
     tables, frames = run(lmp, 2, x, R, [box] * 2, "1e-4", "run 400", every=20)
-    h, stages, energy = (tables[0][name] for name in ("f_step[2]", "f_step[7]", "PotEng"))
+    h, stages, energy = (tables[0][name] for name in ("f_step[2]", "f_step[8]", "PotEng"))
     assert h[-1] == pytest.approx(1000.0)
     assert stages[-1] > 50
     assert np.abs(energy[-1] / energy[-2] - 1) < 1e-9
@@ -229,8 +229,8 @@ def test_bubbles_that_nearly_coincide(lmp):
     x, R, _, box = foam(2, 8)
     x[1] = x[0] + [1e-3, 0]
     tables, _ = run(lmp, 2, x, R, [box] * 2, "1e-3", "run 60", gas="1e-2 0.1")
-    assert tables[0]["f_step[8]"][1] > 500
-    assert tables[0]["f_step[8]"][-1] < 10
+    assert tables[0]["f_step[9]"][1] > 500
+    assert tables[0]["f_step[9]"][-1] < 10
     assert tables[0]["f_step[5]"][-1] < 400
 
 
@@ -249,7 +249,7 @@ def with_other(lmp, fix, body="run 60"):
 def test_forces_that_are_not_of_places_alone(lmp, fix):
     """Velocities and steps go on between the rates at the start and those a step aside: their difference is
     no stiffness.  Springs alone have a radius of 2 to 4 here, the differences made it 10^4."""
-    radius = with_other(lmp, fix)["f_step[8]"]
+    radius = with_other(lmp, fix)["f_step[9]"]
     assert np.all(radius[20:] < 5)
     assert radius[-1] > 1
 
