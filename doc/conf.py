@@ -1,6 +1,7 @@
 # The manual: sphinx-build -W doc doc/_build/html, or ./foam doc
 
 import sys
+from importlib import metadata
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parent / "_ext"))
@@ -18,8 +19,20 @@ html_title = project
 html_theme_options = {
     "description": "Bubbles that rearrange and exchange gas",
     "fixed_sidebar": True,
-    "page_width": "1060px",
-    "sidebar_width": "230px",
+    # tables of text are up to 135 characters wide: they fit into a window of 1300 pixels
+    "page_width": "1270px",
+    "sidebar_width": "215px",
+    "body_max_width": "none",
 }
+html_static_path = ["_static"]
 html_show_sourcelink = False
 html_copy_source = False
+
+# Equations without a network: MathJax from a Python package, as one file that draws them as SVG and
+# needs no fonts. Without the package the pages refer to MathJax's server, as Sphinx has it.
+try:
+    mathjax = metadata.distribution("django-static-mathjax").locate_file("mathjax/static/mathjax/es5")
+    html_static_path.append(str(mathjax / "tex-svg.js"))
+    mathjax_path = "tex-svg.js"
+except metadata.PackageNotFoundError:
+    pass

@@ -550,34 +550,40 @@ void FixFoamIntegrate::initial_integrate(int)
   if (gas && gas->has_dead() && output_due()) next_reneighbor = update->ntimestep;
 }
 
-// for a message: the bubble on which the largest force acts, or one that is no number
+// for a message: a bubble of which something is no number, else the one on which the largest force acts
 
 std::string FixFoamIntegrate::worst_bubble()
 {
   host_reads();
   auto size = [&](int i) {
-    double square = 0.0;
-    for (int k = 0; k < 3; k++) square += atom->f[i][k] * atom->f[i][k];
-    return std::isfinite(square) ? square : INFINITY;
+    double square = 0.0, all = atom->radius[i];
+    for (int k = 0; k < 3; k++) {
+      square += atom->f[i][k] * atom->f[i][k];
+      all += atom->x[i][k] + atom->v[i][k];
+    }
+    return std::isfinite(square + all) ? square : INFINITY;
   };
   FoamTotals mine;
-  for (int i = 0; i < atom->nlocal; i++) mine.max[0] = MAX(mine.max[0], size(i));
-  const double most = reduce(mine).max[0];
+  double &most = mine.max[0], &tag = mine.max[1];
+  for (int i = 0; i < atom->nlocal; i++) most = MAX(most, size(i));
+  most = reduce(mine).max[0];
   for (int i = 0; i < atom->nlocal; i++)
-    if (size(i) == most) mine.max[1] = MAX(mine.max[1], double(atom->tag[i]));
-  const double tag = reduce(mine).max[1];
-  FoamTotals its;
+    if (size(i) == most) tag = MAX(tag, double(atom->tag[i]));
+  tag = reduce(mine).max[1];
+
+  FoamTotals its;    // place and radius at the start of the step, force
   for (int i = 0; i < atom->nlocal; i++)
     if (double(atom->tag[i]) == tag) {
-      for (int k = 0; k < 3; k++) its.sum[k] = atom->f[i][k];
-      for (int k = 0; k < 3; k++) its.sum[3 + k] = start[XSTART + k][i];
+      for (int k = 0; k < 3; k++) its.sum[k] = k < dim ? start[XSTART + k][i] : 0.0;
+      for (int k = 0; k < 3; k++) its.sum[3 + k] = atom->f[i][k];
       its.sum[6] = gas ? start[RSTART][i] : atom->radius[i];
     }
   its = reduce(its);
-  return fmt::format("bubble {:.0f}, of radius {:.8} at {:.8} {:.8} {:.8}, has the largest force, "
-                     "{:.4} {:.4} {:.4}",
-                     tag, its.sum[6], its.sum[3], its.sum[4], its.sum[5], its.sum[0], its.sum[1],
-                     its.sum[2]);
+  return fmt::format("{} bubble {:.0f}, of radius {:.8} at {:.8} {:.8} {:.8}, {} {:.4} {:.4} {:.4}",
+                     std::isfinite(most) ? "the largest force acts on" : "no numbers has", tag,
+                     its.sum[6], its.sum[0], its.sum[1], its.sum[2],
+                     std::isfinite(most) ? "which is" : "on which the force is", its.sum[3],
+                     its.sum[4], its.sum[5]);
 }
 
 // what is to be known of a candidate, over all ranks at once
@@ -1045,12 +1051,14 @@ void FixFoamIntegrate::unpack_restart(int i, int nth)
 
 int FixFoamIntegrate::size_restart(int)
 {
-  return 1 + columns.active() + lags.active() + low.active();
+  int n = 1;
+  for (const FoamColumns *all : travelling()) n += all->active();
+  return n;
 }
 
 int FixFoamIntegrate::maxsize_restart()
 {
-  return 1 + columns.capacity() + lags.capacity() + low.capacity();
+  return 1 + capacity(travelling());
 }
 
 std::vector<double *> FixFoamIntegrate::progress()
@@ -1093,6 +1101,5 @@ void FixFoamIntegrate::restart(char *buf)
 
 double FixFoamIntegrate::memory_usage()
 {
-  return columns.bytes() + lags.bytes() + start.bytes() + v_start.bytes() + listed.bytes() +
-         work.bytes();
+  return bytes(all_columns);
 }

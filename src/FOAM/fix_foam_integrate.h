@@ -99,32 +99,37 @@ class FixFoamIntegrate : public Fix {
   double have_lags = 0.0;           // 1 if LAG and LAST are those of a previous run
   virtual std::vector<double *> progress();
 
-  // per bubble, travelling with it; those of the step before are for the scheme to use
+  // per bubble; those that travel with it stand in restart files, too
+
+  FoamColumnList all_columns;
+  enum : unsigned { STAYS = 1, TRAVELS = 2 };
+  FoamColumnList travelling() const { return chosen(all_columns, TRAVELS); }
+
+  // those of the step before are for the scheme to use
 
   enum { Q, QDOT, VX_BEFORE, VY_BEFORE, VZ_BEFORE, QDOT_BEFORE, NCOLUMNS };
-  FoamColumns columns{NCOLUMNS};
+  FoamColumns columns{all_columns, "gas and rates", NCOLUMNS, TRAVELS};
 
   // neighbor drag only: the velocities l that the evaluation of the present ones took as given,
   // see Foam::lagged_velocity(), and the velocities with which the last run ended
 
   enum { LAGX, LAGY, LAGZ, LASTX, LASTY, LASTZ, NLAGS };
-  FoamColumns lags{NLAGS};
+  FoamColumns lags{all_columns, "lagged velocities", NLAGS, TRAVELS};
 
   // what LAMMPS' own coordinates lack of these in double precision, if it keeps less: see
   // FoamKokkosBubbles. A sum of many small steps would drown in them.
 
-  FoamColumns low{3};
-
-  std::array<FoamColumns *, 3> travelling() { return {&columns, &lags, &low}; }
+  FoamColumns low{all_columns, "low parts of places", 3, TRAVELS};
 
   // per bubble, of one step or one neighbor list
 
   enum { XSTART, YSTART, ZSTART, QSTART, RSTART, NSTART };
-  FoamColumns start{NSTART};    // y_n, and the radii in it
-  FoamColumns v_start{3};       // v_n, where neighbor drag needs LAMMPS' v for l
+  FoamColumns start{all_columns, "starts", NSTART, STAYS};    // y_n, and the radii in it
+  FoamColumns v_start{all_columns, "velocities of the start", 3,
+                      STAYS};    // v_n, where neighbor drag needs LAMMPS' v for l
   enum { XLISTED, YLISTED, ZLISTED, RLISTED, NLISTED };
-  FoamColumns listed{NLISTED};
-  FoamColumns work{5};    // of the scheme, within a step
+  FoamColumns listed{all_columns, "listed places", NLISTED, STAYS};
+  FoamColumns work{all_columns, "work of the scheme", 5, STAYS};    // within a step
 
   // ---- what a scheme does
 

@@ -12,19 +12,22 @@
 
 #include <algorithm>
 #include <memory>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 namespace LAMMPS_NS {
 
 // Where columns lie: on the host, or, for a style that runs on a device, on both sides
-// (foam_kokkos.h). Who asks for one side gets it up to date, and may write to it.
+// (foam_kokkos.h). Who asks for one side gets it up to date, and may write to it. So what was handed
+// out of the other side is outdated from then on.
 
 class FoamStorage {
  public:
   virtual ~FoamStorage() = default;
   virtual void resize(int columns, int length) = 0;    // keeps contents, new numbers are 0
   virtual double *on_host() = 0;
-  virtual double *on_device() { return on_host(); }
+  virtual double *on_device() = 0;
 };
 
 class FoamHostStorage : public FoamStorage {
@@ -41,19 +44,38 @@ class FoamHostStorage : public FoamStorage {
     length_before = length;
   }
   double *on_host() override { return block.data(); }
+  double *on_device() override    // a kernel would read memory of the host
+  {
+    throw std::logic_error("columns that are kept on the host alone");
+  }
 
  private:
   std::vector<double> block;
   int columns_before = 0, length_before = 0;
 };
 
+// All columns of a style, in the order of their declaration. Each announces itself, so that none is
+// forgotten where they are put on a device, sent, grown or counted.
+
+class FoamColumns;
+using FoamColumnList = std::vector<FoamColumns *>;
+
 // Per-bubble numbers that belong together, one contiguous column for each quantity: what a
 // fix needs for grow_arrays(), copy_arrays(), exchange and restart. Columns that are not in
-// use take no memory and do not travel.
+// use take no memory and do not travel.  What the kind means is up to the style: see chosen().
 
 class FoamColumns {
  public:
-  explicit FoamColumns(int n) : ncolumns(n), storage(std::make_unique<FoamHostStorage>()) {}
+  FoamColumns(FoamColumnList &all, const char *name, int n, unsigned kind = 0)
+      : name(name), kind(kind), ncolumns(n), storage(std::make_unique<FoamHostStorage>())
+  {
+    all.push_back(this);
+  }
+  FoamColumns(const FoamColumns &) = delete;
+  FoamColumns &operator=(const FoamColumns &) = delete;
+
+  const char *const name;
+  const unsigned kind;
 
   // elsewhere than on the host alone; to be said before the first use of a number
 
@@ -76,7 +98,15 @@ class FoamColumns {
   int capacity() const { return ncolumns; }
   int rows() const { return length; }
   double *operator[](int c) { return at(storage->on_host(), c); }
-  double *on_device(int c) { return in_use() ? at(storage->on_device(), c) : nullptr; }
+  double *on_device(int c)
+  {
+    if (!in_use()) return nullptr;
+    try {
+      return at(storage->on_device(), c);
+    } catch (std::logic_error &wrong) {
+      throw std::logic_error(std::string("Foam package: ") + name + " are " + wrong.what());
+    }
+  }
 
   void grow(int nmax)
   {
@@ -108,6 +138,28 @@ class FoamColumns {
 
   double *at(double *block, int c) const { return block + static_cast<size_t>(c) * length; }
 };
+
+inline FoamColumnList chosen(const FoamColumnList &all, unsigned kinds)
+{
+  FoamColumnList some;
+  for (FoamColumns *columns : all)
+    if (columns->kind & kinds) some.push_back(columns);
+  return some;
+}
+
+inline int capacity(const FoamColumnList &all)    // numbers of a bubble, if all are in use
+{
+  int n = 0;
+  for (const FoamColumns *columns : all) n += columns->capacity();
+  return n;
+}
+
+inline double bytes(const FoamColumnList &all)
+{
+  double sum = 0.0;
+  for (const FoamColumns *columns : all) sum += columns->bytes();
+  return sum;
+}
 
 }    // namespace LAMMPS_NS
 

@@ -33,9 +33,6 @@
 
 using namespace LAMMPS_NS;
 
-// most values a bubble can have in reverse communication: all sums at once
-static constexpr int MAX_SUMS = 8;
-
 // numbers of a restart file
 static constexpr int SETTINGS = 10;
 
@@ -48,7 +45,7 @@ PairDurianFoam::PairDurianFoam(LAMMPS *lmp) : Pair(lmp), sigma0(nullptr)
   writedata = 1;
   finitecutflag = 1;
   no_virial_fdotr_compute = 1;    // a bubble may touch its own image: tally pair by pair
-  comm_reverse = MAX_SUMS;
+  comm_reverse = capacity(all_columns);
 
   mu0 = 1.0;
   rin = ain = 0.0;
@@ -93,11 +90,7 @@ void PairDurianFoam::gather()
 
 void PairDurianFoam::gather(unsigned what)
 {
-  if (what & Foam::CONTACTS) contacts.use(atom->nmax);
-  if (what & Foam::VSUM) vsum.use(atom->nmax);
-  if (what & Foam::AREA) area.use(atom->nmax);
-  if (what & Foam::FILM) film.use(atom->nmax);
-  if (what & Foam::ENERGY) energies.use(atom->nmax);
+  for (FoamColumns *sums : chosen(all_columns, what)) sums->use(atom->nmax);
   gather_contacts(what);
 }
 
@@ -182,30 +175,17 @@ template <int D, unsigned WHAT> void PairDurianFoam::gather_in()
 
 /* ---------------------------------------------------------------------- */
 
-// the columns that were gathered
-
-static std::vector<FoamColumns *> those(unsigned gathered, PairDurianFoam &p)
-{
-  std::vector<FoamColumns *> all;
-  if (gathered & Foam::CONTACTS) all.push_back(&p.contacts);
-  if (gathered & Foam::VSUM) all.push_back(&p.vsum);
-  if (gathered & Foam::FILM) all.push_back(&p.film);
-  if (gathered & Foam::AREA) all.push_back(&p.area);
-  if (gathered & Foam::ENERGY) all.push_back(&p.energies);
-  return all;
-}
-
 int PairDurianFoam::pack_reverse_comm(int n, int first, double *buf)
 {
   int m = 0;
-  for (FoamColumns *sums : those(gathered, *this))
+  for (FoamColumns *sums : chosen(all_columns, gathered))
     for (int c = 0; c < sums->active(); c++, m += n) std::copy_n((*sums)[c] + first, n, buf + m);
   return m;
 }
 
 void PairDurianFoam::unpack_reverse_comm(int n, int *sendlist, double *buf)
 {
-  for (FoamColumns *sums : those(gathered, *this))
+  for (FoamColumns *sums : chosen(all_columns, gathered))
     for (int c = 0; c < sums->active(); c++) {
       double *const sum = (*sums)[c];
       for (int ii = 0; ii < n; ii++) sum[sendlist[ii]] += *buf++;
@@ -596,6 +576,5 @@ void PairDurianFoam::write_data_all(FILE *fp)
 
 double PairDurianFoam::memory_usage()
 {
-  return Pair::memory_usage() + contacts.bytes() + vsum.bytes() + area.bytes() + film.bytes() +
-         energies.bytes();
+  return Pair::memory_usage() + bytes(all_columns);
 }

@@ -77,8 +77,13 @@ class PairDurianFoam : public Pair {
 
   // sums over the contacts of each bubble, as gathered last; ghosts' parts are added in
 
-  FoamColumns contacts{1}, vsum{3}, area{1}, film{1}, energies{2};
-  enum { ESPRING, EDURIAN };
+  FoamColumnList all_columns;    // their kind: the flag that asks for them
+  enum { ESPRING, EDURIAN, NENERGIES };
+  FoamColumns contacts{all_columns, "contacts", 1, Foam::CONTACTS};
+  FoamColumns vsum{all_columns, "sums of velocities", 3, Foam::VSUM};
+  FoamColumns area{all_columns, "contact areas", 1, Foam::AREA};
+  FoamColumns film{all_columns, "film exchange", 1, Foam::FILM};
+  FoamColumns energies{all_columns, "energies", NENERGIES, Foam::ENERGY};
 
   template <class Space> Foam::ContactSums contact_sums(Space &here)
   {

@@ -25,23 +25,26 @@ namespace LAMMPS_NS {
 
 // Columns that travel with the bubbles: in a buffer, one bubble after the other
 
-struct FoamTravelling {
-  static constexpr int MOST = 15;
+template <class DeviceType> struct FoamTravelling {
+  struct Column {
+    double *first;
+    KOKKOS_INLINE_FUNCTION double &operator[](int i) const { return first[i]; }
+  };
   int count;
-  double *column[MOST];
+  Kokkos::View<Column *, DeviceType> column;
 };
 
 template <class DeviceType> struct FoamPackExchange {
   static constexpr const char *NAME = "foam: pack exchange";
-  FoamTravelling all;
+  FoamTravelling<DeviceType> all;
   double *buf;
   typename ArrayTypes<DeviceType>::t_int_1d sendlist, copylist;
   KOKKOS_INLINE_FUNCTION void operator()(int n) const
   {
     const int i = sendlist(n), j = copylist(n);
     for (int c = 0; c < all.count; c++) {
-      buf[static_cast<size_t>(n) * all.count + c] = all.column[c][i];
-      if (j >= 0) all.column[c][i] = all.column[c][j];    // fills the gap
+      buf[static_cast<size_t>(n) * all.count + c] = all.column(c)[i];
+      if (j >= 0) all.column(c)[i] = all.column(c)[j];    // fills the gap
     }
   }
 };
@@ -50,7 +53,7 @@ template <class DeviceType> struct FoamPackExchange {
 
 template <class DeviceType> struct FoamUnpackExchange {
   static constexpr const char *NAME = "foam: unpack exchange";
-  FoamTravelling all;
+  FoamTravelling<DeviceType> all;
   const double *buf;
   typename ArrayTypes<DeviceType>::t_int_1d indices;
   int nfirst, next;
@@ -60,7 +63,7 @@ template <class DeviceType> struct FoamUnpackExchange {
     if (i < 0) return;    // not for this rank
     const size_t before = n < nfirst ? n : n - nfirst;
     const double *const from = buf + (n < nfirst ? 0 : next) + before * all.count;
-    for (int c = 0; c < all.count; c++) all.column[c][i] = from[c];
+    for (int c = 0; c < all.count; c++) all.column(c)[i] = from[c];
   }
 };
 
@@ -83,9 +86,7 @@ class FixFoamIntegrateKokkos : public Style, public KokkosBase {
     this->exchange_comm_device = this->sort_device = std::is_same_v<DeviceType, LMPDeviceType>;
     this->execution_space = FoamKokkos<DeviceType>::SPACE;
     this->datamask_read = this->datamask_modify = EMPTY_MASK;    // the loops see to it
-    for (FoamColumns *c : {&this->columns, &this->lags, &this->low, &this->start, &this->v_start,
-                           &this->listed, &this->work})
-      here.keep(*c);
+    here.keep(this->all_columns);
     if (std::is_same_v<KK_FLOAT, float>) {
       this->low.use(lmp->atom->nmax);
       here.low = &this->low;
@@ -171,13 +172,17 @@ class FixFoamIntegrateKokkos : public Style, public KokkosBase {
 
   // LAMMPS has the buffer on the side of its communication, device or host
 
-  template <class Side> FoamTravelling travelling_in()
+  template <class Side> FoamTravelling<Side> travelling_in()
   {
-    FoamTravelling all{0, {}};
-    for (FoamColumns *columns : this->travelling())
+    const FoamColumnList list = this->travelling();
+    using Columns = decltype(FoamTravelling<Side>::column);
+    FoamTravelling<Side> all{0, Columns("foam: travelling columns", capacity(list))};
+    const auto column = Kokkos::create_mirror_view(all.column);
+    for (FoamColumns *columns : list)
       for (int c = 0; c < columns->active(); c++)
-        all.column[all.count++] =
-            std::is_same_v<Side, LMPDeviceType> ? columns->on_device(c) : (*columns)[c];
+        column(all.count++) = {std::is_same_v<Side, LMPDeviceType> ? columns->on_device(c)
+                                                                   : (*columns)[c]};
+    Kokkos::deep_copy(all.column, column);
     return all;
   }
   template <class Side>

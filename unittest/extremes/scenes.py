@@ -7,7 +7,7 @@ import os
 import numpy as np
 import pytest
 
-from conftest import BACKENDS as ALL_BACKENDS, PLAIN, PRECISE, data_file
+from runner import BACKENDS as ALL_BACKENDS, PLAIN, PRECISE, data_file
 
 # integrators by name: the line of the fix, with the tolerance left open
 INTEGRATORS = {

@@ -1,7 +1,7 @@
 """Many inputs in one process of LAMMPS, through LAMMPS' C library: a thousand short ones take seconds,
 where starting LAMMPS anew takes a third of a second each.
 
-  process = SharedProcess(lmp, directory)           lmp: a Runner of conftest.py
+  process = SharedProcess(lmp, directory)           lmp: a Runner of runner.py
   end = process(text, files={NAME: TEXT or BYTES})
   end.error        what LAMMPS said when it gave up, "" if it did not
   end.crash        what went wrong otherwise: a signal, a hang, a report of a sanitizer; "" if nothing.
@@ -24,7 +24,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-LIMIT = 20.0             # s; an input here takes some ms
+LIMIT = 300.0            # s, for what hangs; an input here takes some ms
 HANG = "no answer"
 MEMORY = 4 << 30         # bytes that LAMMPS may ask for
 

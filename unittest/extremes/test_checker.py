@@ -6,6 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from runner import Runner
 from scenes import anywhere, assert_sound
 
 SCENE = anywhere(2, 40, 0.9, K=0.3, run=60)
@@ -13,7 +14,6 @@ SCENE = anywhere(2, 40, 0.9, K=0.3, run=60)
 
 @pytest.fixture(scope="module")
 def sound(tmp_path_factory):
-    from conftest import Runner
     result = SCENE(Runner("wheel", tmp_path_factory.mktemp("sound")))
     assert result.thermo[0]["f_gas[7]"][-1] > 0    # bubbles have vanished
     return result

@@ -212,7 +212,7 @@ def test_own_images_in_a_small_tilted_box(lmp, integrator):
     assert scene.box[2] < 2 * scene.R.min()
     a, b = last(scene(lmp)), last(scene.scaled(2.0**-10)(lmp))
     assert np.array_equal(a.array("x", "y", "z"), b.array("x", "y", "z") * 2.0**10)
-    result = scene.but(before="newton on").scaled(2.0**-10)(lmp, check=False, timeout=30)
+    result = scene.but(before="newton on").scaled(2.0**-10)(lmp, check=False)
     assert result.returncode > 0 and "newton" in result.errors[0]
 
 
@@ -236,7 +236,7 @@ fix box all deform 1 {CHANGES[change]} remap x"""
 def test_box_without_width(base_lmp):
     """One bubble in a box that shrinks around it: a clear stop, that names the way out."""
     alone = Scene([[5.0, 5.0]], [1.0], [10.0, 10.0], boundary="s s p", K=None)
-    result = alone(base_lmp, check=False, timeout=30)
+    result = alone(base_lmp, check=False)
     assert result.returncode > 0
     assert "boundary m" in result.errors[0] and "nsq" in result.errors[0]
     for way_out in alone.but(boundary="m m p"), alone.but(neighbor="nsq"):
@@ -247,6 +247,6 @@ def test_lost(base_lmp):
     """Out of a fixed box: LAMMPS says so."""
     scene = Scene([[9.5, 5.0], [9.0, 5.0], [3.0, 3.0]], [1.0, 1.0, 1.2], [10.0, 10.0],
                   boundary="f f p", run=2000)
-    result = scene(base_lmp, check=False, timeout=30)
+    result = scene(base_lmp, check=False)
     assert result.returncode > 0
     assert "Lost atoms" in result.errors[0]

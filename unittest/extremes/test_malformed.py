@@ -277,6 +277,6 @@ def test_good_scripts(lammps, case):
     "compute c all foam/bubble colour"])
 def test_exit_code(base_lmp, command, ranks):
     """The program ends with an exit code, not with a signal, on all ranks."""
-    result = base_lmp(with_line(command), files={"data": DATA}, ranks=ranks, check=False, timeout=20)
+    result = base_lmp(with_line(command), files={"data": DATA}, ranks=ranks, check=False)
     assert 0 < result.returncode < 128
     assert re.search("ERROR.*foam", result.errors[0])

@@ -42,7 +42,7 @@ def test_tolerance_below_rounding(lmp, integrator):
     """A million from the origin a place has 10 digits behind the point: a clear stop, or the right
     motion."""
     scene = two(tol=1e-15, corner=1e6, integrator=integrator, run=3000, every=100, dt0=1e-3)
-    result = scene(lmp, check=False, timeout=60)
+    result = scene(lmp, check=False)
     if result.returncode:
         assert "the step fell to" in result.errors[0] and "tolerance" in result.errors[0]
         return
@@ -68,7 +68,7 @@ def test_limits_of_steps(lmp, dtmax, dt0, integrator):
 @cases("integrator", INTEGRATORS)
 def test_steps_without_effect(lmp, integrator):
     """A step that is 1e-13 of the time in which springs relax is refused, in words."""
-    result = two(dtmax=1e-13, integrator=integrator)(lmp, check=False, timeout=20)
+    result = two(dtmax=1e-13, integrator=integrator)(lmp, check=False)
     assert result.returncode > 0
     assert "Fix foam/" in result.errors[0] and "1e-13" in result.errors[0]
 
@@ -120,7 +120,7 @@ def test_steps_that_only_shrink(lmp, dim):
     """Each is a fifth of the last, which is the least: after 20 of them it ends in words.  (The error of
     abm becomes 0 before, and its steps grow again.)"""
     scene = anywhere(dim, 10, 0.9, integrator="rkc", step="safety 1e-300", run=100)
-    result = scene(lmp, check=False, timeout=20)
+    result = scene(lmp, check=False)
     assert result.returncode > 0
     assert "Fix foam/rkc" in result.errors[0] and "is too short" in result.errors[0]
 
@@ -202,7 +202,7 @@ def test_many_steps_at_rest(lmp, integrator):
     """A packing at rest stays where it is."""
     scene = anywhere(2, 12, 1.0, integrator=integrator, K=None, tol=1e-6, dtmax=0.1, run=MANY,
                      every=MANY // 10)
-    result = scene(lmp, timeout=600)
+    result = scene(lmp)
     energy, frames = result.thermo[0]["PotEng"], result.dump("dump")
     rest = slice(2, None)
     assert np.ptp(energy[rest]) <= 1e-12 * energy[-1]
@@ -217,7 +217,7 @@ def test_many_steps_of_exchange(lmp, integrator):
     """Gas goes round for as long: its sum stays."""
     scene = anywhere(3, 12, 0.9, spread=0.05, integrator=integrator, K=1e-9, kappa=1.0, dtmax=0.1,
                      run=MANY, every=MANY // 10, gas_limit=1e-16 * MANY)
-    result = scene(lmp, timeout=600)
+    result = scene(lmp)
     assert result.thermo[0]["Step"][-1] == MANY
     # gas moves, at rates of 5 % of K / R, and from rest on at those that there were: the radii are still
     # nearly the same

@@ -9,7 +9,7 @@ import os
 
 import numpy as np
 
-from conftest import on_device
+from runner import on_device
 from scenes import FULL, INTEGRATORS, Scene, box_for, cases, last, radii
 from test_units import assert_scaled
 

@@ -9,12 +9,15 @@
 #include <vector>
 
 using LAMMPS_NS::FoamColumns;
+using LAMMPS_NS::FoamColumnList;
 using LAMMPS_NS::FoamHostStorage;
 using LAMMPS_NS::FoamStorage;
 
+static FoamColumnList shelf;    // where nobody looks at it
+
 TEST(Columns, UnusedOnesTakeNothing)
 {
-  FoamColumns columns(3);
+  FoamColumns columns(shelf, "columns", 3);
   double buf[3] = {1.0, 2.0, 3.0};
   EXPECT_FALSE(columns.in_use());
   EXPECT_EQ(columns.active(), 0);
@@ -29,7 +32,7 @@ TEST(Columns, UnusedOnesTakeNothing)
 
 TEST(Columns, PackAndUnpackAreInverse)
 {
-  FoamColumns columns(3);
+  FoamColumns columns(shelf, "columns", 3);
   columns.use(4);
   ASSERT_TRUE(columns.in_use());
   for (int c = 0; c < 3; c++) columns[c][1] = 10.0 + c;
@@ -41,7 +44,7 @@ TEST(Columns, PackAndUnpackAreInverse)
 
 TEST(Columns, GrowingKeepsValuesAndFillsWithZero)
 {
-  FoamColumns columns(2);
+  FoamColumns columns(shelf, "columns", 2);
   columns.use(2);
   columns[0][1] = 5.0;
   columns.grow(100);
@@ -54,7 +57,7 @@ TEST(Columns, GrowingKeepsValuesAndFillsWithZero)
 
 TEST(Columns, GrowingAgainAndAgain)
 {
-  FoamColumns columns(3);
+  FoamColumns columns(shelf, "columns", 3);
   columns.use(0);    // a rank without bubbles
   EXPECT_TRUE(columns.in_use());
   EXPECT_EQ(columns.rows(), 1);
@@ -126,7 +129,7 @@ class TwoSides : public FoamStorage {
 TEST(Columns, KeptElsewhere)
 {
   TwoSides::Log log;
-  FoamColumns columns(2);
+  FoamColumns columns(shelf, "columns", 2);
   columns.keep_in(std::make_unique<TwoSides>(log));
   EXPECT_EQ(columns.on_device(1), nullptr);    // not in use: nothing there, nothing moved
   EXPECT_TRUE(log.sizes.empty());
@@ -152,7 +155,7 @@ TEST(Columns, KeptElsewhere)
 TEST(Columns, InUseBeforeTheyAreKeptElsewhere)
 {
   TwoSides::Log log;
-  FoamColumns columns(2);
+  FoamColumns columns(shelf, "columns", 2);
   columns.use(5);
   columns.keep_in(std::make_unique<TwoSides>(log));
   ASSERT_EQ(log.sizes.size(), 1u);
@@ -162,7 +165,7 @@ TEST(Columns, InUseBeforeTheyAreKeptElsewhere)
 
 TEST(Columns, CopyAndClear)
 {
-  FoamColumns columns(2);
+  FoamColumns columns(shelf, "columns", 2);
   columns.use(3);
   columns[0][2] = 1.0;
   columns[1][2] = 2.0;

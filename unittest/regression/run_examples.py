@@ -8,7 +8,7 @@ base styles on each number of ranks given there, and with the KOKKOS styles on o
 their back ends (or, by --backend, for one of all). Its log is compared with the reference beside
 it, log.DATE.NAME.g++.RANKS, column by column; --update writes new references instead. EXAMPLE is a
 directory such as `relax`; without any, all are run. Environment variables name the programs, as
-ctest sets them; back ends and their variables: ../styles/conftest.py.
+ctest sets them; back ends and their variables: ../runner.py.
 """
 import argparse
 from datetime import date
@@ -26,8 +26,8 @@ import numpy as np
 import yaml
 
 HERE = Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE.parent / "styles"))
-from conftest import BACKENDS, KOKKOS, not_on_device    # noqa: E402
+sys.path.insert(0, str(HERE.parent))
+from runner import BACKENDS, KOKKOS, not_on_device    # noqa: E402
 
 SOURCE = Path(os.environ.get("FOAM_SOURCE_DIR", HERE.parents[1])).resolve()
 LOADED = re.compile(r"^Loaded \d+ plugins from .*\n", re.M)    # where LAMMPS found our plugin

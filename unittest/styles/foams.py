@@ -8,7 +8,7 @@ ways to add up the same numbers; it grows as nearby states part.  Limits:
 
 import numpy as np
 
-from conftest import PRECISE, Runner, data_file
+from runner import PRECISE, Runner, data_file
 
 SAME = 1e-12
 SHORT = 1e-9

@@ -5,7 +5,7 @@ import re
 import numpy as np
 import pytest
 
-from conftest import HEAD, PRECISE, bins_only, data_file, tiled
+from runner import HEAD, PRECISE, bins_only, data_file, tiled
 
 BASIC = f"""
 compute       p all pressure NULL virial

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from conftest import HEAD, PRECISE, data_file
+from runner import HEAD, PRECISE, data_file
 
 RMIN = 0.1
 

@@ -5,7 +5,7 @@ import signal
 
 import pytest
 
-from conftest import HEAD, KOKKOS, data_file, on_device
+from runner import HEAD, KOKKOS, data_file, on_device
 
 COMMANDS = {
     "pair_style": "pair_style durian/foam 1.0",
@@ -93,7 +93,7 @@ def cases():
 def fails(lmp, text, ranks=1):
     """LAMMPS ends by itself, soon, with an error: give its line."""
     result = lmp(text, files={"data": data_file([10, 10], [[3, 3], [4.5, 3], [8, 7]], [1, 1, 0.9])},
-                 ranks=ranks, check=False, timeout=20)
+                 ranks=ranks, check=False)
     assert result.returncode not in (0, 128 + signal.SIGSEGV, 128 + signal.SIGABRT)
     assert result.returncode > 0    # a negative one is a signal
     assert result.errors, result.screen[-1000:]

@@ -9,7 +9,7 @@ import re
 import numpy as np
 import pytest
 
-from conftest import BACKENDS, KOKKOS, ON_DEVICE, PRECISE, Runner, data_file, tiled
+from runner import BACKENDS, KOKKOS, ON_DEVICE, PRECISE, Runner, data_file, tiled
 from foams import SAME, SHORT, SIZE, assert_same_run, assert_same_state, case, foam, state
 
 GPU = "cuda" in BACKENDS    # else a CPU, with as many threads as we like
@@ -317,7 +317,7 @@ ONE_BASE = {"pair_style": "durian/foam", "fix           gas": "foam/coarsen",
 def test_suffix_of_some(backends, line):
     """All styles of a foam go on one side: an error says which one does not."""
     text = re.sub(f"^({line}.*)$", r"suffix off\n\1\nsuffix on", case(2, **RUN), flags=re.M)
-    other = backends(KK, start())(text, files=files(2), check=False, timeout=30)
+    other = backends(KK, start())(text, files=files(2), check=False)
     assert other.returncode > 0
     assert ONE_BASE[line] in other.errors[0] and "suffix" in other.errors[0]
 

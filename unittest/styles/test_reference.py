@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from conftest import HEAD, PRECISE, data_file
+from runner import HEAD, PRECISE, data_file
 
 REFERENCE = Path(__file__).parents[1] / "reference"
 NAMES = ["pair2d", "liquid2d", "foam2d", "foam3d"]

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from conftest import HEAD, PRECISE, data_file
+from runner import HEAD, PRECISE, data_file
 from foams import SAME, foam
 from test_analytic import film_rate
 
@@ -160,7 +160,7 @@ def test_stages_are_the_fewest_that_are_stable(lmp):
     x, R, _, box = foam(2, 6)
     for step, margin in ("1e-3", MARGIN), ("1e-3 spectral 50", 1.0):
         tables, _ = run(lmp, 2, x, R, [box] * 2, step, "run 60")
-        h, stages, radius = (tables[0][f"f_step[{k}]"][1:] for k in (2, 7, 8))
+        h, stages, radius = (tables[0][f"f_step[{k}]"][1:] for k in (2, 8, 9))
         assert np.all(radius == 50) or step == "1e-3"
         z = h * radius * margin
         assert np.all(z <= stable(stages) * (1 + SAME))
@@ -190,7 +190,7 @@ def test_evaluations_are_the_stages(lmp):
     """A step costs as many evaluations as it has stages, with the radius given."""
     x, R, _, box = foam(2, 6)
     tables, _ = run(lmp, 2, x, R, [box] * 2, "1 spectral 20 dtmax 0.5", "run 40", gas="1e-3 0.1")
-    evaluations, refused, stages = (tables[0][f"f_step[{k}]"] for k in (5, 4, 7))
+    evaluations, refused, stages = (tables[0][f"f_step[{k}]"] for k in (5, 4, 8))
     assert refused[-1] == 0
     assert np.array_equal(evaluations[1:], 1 + np.cumsum(stages[1:]))    # one before the run
 

@@ -6,7 +6,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from conftest import HEAD, PRECISE, data_file
+from runner import HEAD, PRECISE, data_file
 
 OUTPUT = f"""
 compute       b all foam/bubble contacts area vfilm vliquid espring
@@ -45,7 +45,7 @@ FOUR = [[3, 3], [4.5, 3], [7, 7], [7.5, 8]], [1, 1, 0.9, 1.1]
 def test_radius_not_positive(lmp, radius, gas, ranks):
     x, R = FOUR
     result = lmp(foam(gas=gas), files={"data": data_file([10, 10], x, [1, 1, radius, 1])},
-                 ranks=ranks, check=False, timeout=20)
+                 ranks=ranks, check=False)
     assert result.returncode > 0
     assert "foam/abm" in result.errors[0] and "radius of bubble 3 " in result.errors[0]
 
@@ -60,7 +60,7 @@ NAN = "variable nan atom 10^400-10^400\nset atom 3 {} v_nan"
 def test_nan(lmp, what, words):
     x, R = FOUR
     result = lmp(foam(before=NAN.format(what)), files={"data": data_file([10, 10], x, R)},
-                 check=False, timeout=20)
+                 check=False)
     assert result.returncode > 0
     for word in words:
         assert word in result.errors[0]
@@ -69,7 +69,7 @@ def test_nan(lmp, what, words):
 def test_infinite_radius(lmp):
     x, R = FOUR
     result = lmp(foam(before=NAN.format("diameter").replace("-10^400", "")),
-                 files={"data": data_file([10, 10], x, R)}, check=False, timeout=20)
+                 files={"data": data_file([10, 10], x, R)}, check=False)
     assert result.returncode > 0
     assert "foam/abm" in result.errors[0] and "radius of bubble 3 " in result.errors[0]
 
@@ -89,7 +89,7 @@ def test_velocity_nan_with_neighbor_drag(lmp):
     """Here they are given: the error says where to look."""
     x, R = FOUR
     result = lmp(foam(before=NAN.format("vx"), pair="drag neighbor"),
-                 files={"data": data_file([10, 10], x, R)}, check=False, timeout=20)
+                 files={"data": data_file([10, 10], x, R)}, check=False)
     assert result.returncode > 0
     assert "foam/abm" in result.errors[0] and "step 1," in result.errors[0]
 
@@ -97,7 +97,7 @@ def test_velocity_nan_with_neighbor_drag(lmp):
 def test_infinite_force(lmp):
     x, R = FOUR
     result = lmp(foam(before="fix a all addforce 1e308 0 0\nfix b all addforce 1e308 0 0"),
-                 files={"data": data_file([10, 10], x, R)}, check=False, timeout=20)
+                 files={"data": data_file([10, 10], x, R)}, check=False)
     assert result.returncode > 0
     assert "foam/abm" in result.errors[0] and "step 1," in result.errors[0]
 
@@ -161,8 +161,7 @@ def test_one_bubble(lmp, dim, ranks):
 
 
 def test_no_bubble(lmp):
-    result = lmp(foam(), files={"data": data_file([10, 10], np.zeros((0, 2)), [])}, check=False,
-                 timeout=20)
+    result = lmp(foam(), files={"data": data_file([10, 10], np.zeros((0, 2)), [])}, check=False)
     assert result.returncode > 0
     assert "durian/foam" in result.errors[0] and "no bubble" in result.errors[0]
 
@@ -177,7 +176,7 @@ def test_no_bubble_but_a_mean_radius(lmp):
 def test_all_below_rmin(lmp):
     x, R = FOUR
     result = lmp(foam(gas="1e-2 0.1 rmin 3"), files={"data": data_file([10, 10], x, R)},
-                 check=False, timeout=20)
+                 check=False)
     assert result.returncode > 0
     assert "no bubbles are left" in result.errors[0] and "step 1," in result.errors[0]
 

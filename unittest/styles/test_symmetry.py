@@ -4,7 +4,7 @@ which neighbor list, and where a run is interrupted."""
 import numpy as np
 import pytest
 
-from conftest import BACKENDS, PRECISE, bins_only, data_file, on_device, tiled
+from runner import BACKENDS, PRECISE, bins_only, data_file, on_device, tiled
 from foams import SAME, SHORT, SIZE, assert_same_run, assert_same_state, case, foam, state
 
 VARIANTS = {

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from foams import SAME, case, foam
-from conftest import data_file
+from runner import data_file
 
 STEP = 1.0e-4
 VFILM, VLIQUID, RDOT = "c_b[4]", "c_b[5]", "c_b[6]"

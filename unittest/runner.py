@@ -1,14 +1,14 @@
-"""Run LAMMPS on an input and read back what it wrote: the base of all tests in this directory.
+"""Run LAMMPS on an input and read back what it wrote: the base of all tests that run it.
 
 Which LAMMPS: the environment variables FOAM_LMP_WHEEL, FOAM_LMP_SOURCE and FOAM_MPIEXEC, which
-ctest sets (see ../CMakeLists.txt).  A test that needs one that is not set fails and says so.
+ctest sets (see CMakeLists.txt).  A test that needs one that is not set fails and says so.
 FOAM_KOKKOS is what the Kokkos of FOAM_LMP_SOURCE computes with: OPENMP (the default), SERIAL or
 CUDA.  Beside it FOAM_LMP_SERIAL and FOAM_LMP_CUDA may name such builds: then these take part too.
 
 A back end is a build of LAMMPS and how it is started: BACKENDS below.  wheel and source run the
 base styles, all others the KOKKOS styles; that they really do is looked at after each run.
 
-Fixtures
+Fixtures (conftest.py)
   lmp        the test runs with the base styles (wheel) and with the KOKKOS styles (kk1, kkgpu)
   each_lmp   it runs once for each back end
   kk_lmp     it runs once for each back end with the KOKKOS styles
@@ -19,12 +19,12 @@ Fixtures
 
 The others are functions of the same kind, and so is what backends gives:
 
-  result = lmp(TEXT, files={NAME: TEXT}, ranks=1, args=(), check=True, timeout=120)
+  result = lmp(TEXT, files={NAME: TEXT}, ranks=1, args=(), check=True)
 
-which run LAMMPS on the input TEXT in a new empty directory, with `files` beside it, and, unless
-check=False, fail the test if LAMMPS fails.  A second run can go on in the same directory with
-directory=result.directory.  lmp.name is the name of the back end, lmp.kokkos whether it runs the
-KOKKOS styles.
+which run LAMMPS on the input TEXT in a new empty directory, with `files` beside it, and fail the
+test if LAMMPS hangs, or, unless check=False, if it fails.  A second run can go on in the same
+directory with directory=result.directory.  lmp.name is the name of the back end, lmp.kokkos whether
+it runs the KOKKOS styles.
 
 What a run gives
   result.returncode, result.screen, result.directory
@@ -39,7 +39,7 @@ What a run gives
   result.table(NAME)       Table of a file of numbers whose last line of comment (#) or first line
                            names the columns (fix print, fix ave/time, csv)
 
-Functions to import (`from conftest import ...`)
+Functions to import (`from runner import ...`)
   data_file(box, x, R, v=None)   text of a data file: box = side lengths (2 in 2D) with a corner at
                            the origin, or (lo, hi) pairs; x = (N, d) centres; R = radii;
                            v = (N, d) velocities
@@ -59,6 +59,9 @@ import pytest
 
 # tests run side by side: threads that wait give their core away
 os.environ.setdefault("OMP_WAIT_POLICY", "passive")
+
+# s: the limit for what hangs. Most runs take less than 1 s; no machine is so busy that they take this
+HANG = 600.0
 
 PRECISE = "thermo_modify norm no format float %.17g\n"
 
@@ -276,7 +279,7 @@ class Runner:
         self.program = program(self.backend.variable)
         self.directory, self.runs = directory, 0
 
-    def __call__(self, text, files=None, ranks=1, args=(), check=True, timeout=120,
+    def __call__(self, text, files=None, ranks=1, args=(), check=True, timeout=HANG,
                  directory=None):
         self.runs += 1
         if directory is None:
@@ -317,40 +320,3 @@ def not_on_device(screen):
             return "-sf kk, but the base styles ran: the plugin has no KOKKOS styles"
     slow = re.search(r"Fix foam/\S+ not .*|Required border comm .*", screen)
     return f"bubbles went through the host: {slow[0]}" if slow else None
-
-
-@pytest.fixture(params=PLAIN)
-def lmp(request, tmp_path):
-    return Runner(request.param, tmp_path)
-
-
-@pytest.fixture(params=BACKENDS)
-def each_lmp(request, tmp_path):
-    return Runner(request.param, tmp_path)
-
-
-@pytest.fixture(params=KOKKOS)
-def kk_lmp(request, tmp_path):
-    return Runner(request.param, tmp_path)
-
-
-@pytest.fixture
-def base_lmp(tmp_path):
-    return Runner("wheel", tmp_path)
-
-
-@pytest.fixture
-def backends(tmp_path):
-    runners = []
-
-    def runner(name, args=None):
-        runners.append(Runner(name, tmp_path / f"{name}.{len(runners)}", args))
-        return runners[-1]
-
-    return runner
-
-
-@pytest.fixture(scope="session")
-def base(tmp_path_factory):
-    from foams import Base    # which imports from here
-    return Base(tmp_path_factory.mktemp("base"))
