@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
-"""Pictures of a coarsening run: growth.png and foam.png, from what in.coarsen wrote.
+"""Pictures of a coarsening run: growth.png, foam.png and sizes.png, from what in.coarsen wrote.
 
-    python3 plot.py DIR          DIR holds series.csv, foam.lammpstrj and last.lammpstrj
+    python3 plot.py DIR          DIR holds series.csv, foam.lammpstrj and last.lammpstrj,
+                                 and tau.lammpstrj, N.lammpstrj for sizes.png
 """
 import argparse
 import csv
 from pathlib import Path
+import sys
 
 import matplotlib
 matplotlib.use("Agg")
@@ -26,12 +28,40 @@ BLUE, GREY = "#1f5a96", "0.45"
 
 # ------------------------------------------------------------------ reading
 
+class Unusable(Exception):
+    """What is wrong with a file of the user's."""
+
+
+NEEDED = ("step", "tau", "N", "R")                 # of series.csv
+WELCOME = ("Rmax", "phi", "evaluations")           # without them the summary is shorter
+OF_A_BUBBLE = ("id", "x", "y", "z", "radius")      # of snapshots
+
+
+def check_columns(path, names, needed, also=()):
+    missing = [name for name in needed if name not in names]
+    if missing:
+        more = f" (and for the whole summary {', '.join(also)})" if also else ""
+        raise Unusable(f"{path} lacks the columns: {', '.join(missing)}. Needed are "
+                       f"{', '.join(needed)}{more}; it has {', '.join(names) or 'none'}")
+
+
 def read_series(path):
     """Columns of series.csv by name."""
+    if not path.is_file():
+        raise Unusable(f"there is no {path}, a table with a line of names, "
+                       f"{','.join(NEEDED + WELCOME)}, and commas between columns")
     with open(path, newline="") as f:
-        rows = list(csv.reader(f))
-    table = np.array(rows[1:], dtype=float)
-    return {name: table[:, i] for i, name in enumerate(rows[0])}
+        rows = [row for row in csv.reader(f) if row]
+    names = [name.strip() for name in rows[0]] if rows else []
+    check_columns(path, names, NEEDED, WELCOME)
+    try:
+        table = np.array(rows[1:], dtype=float)
+    except ValueError as wrong:
+        raise Unusable(f"{path} has a line that is no row of {len(names)} numbers: {wrong}") from None
+    if len(table) < 2 or table.shape[1] != len(names) or not table[-1, names.index("tau")] > 0:
+        raise Unusable(f"{path} needs two lines at least, of {len(names)} numbers each, "
+                       "the last with a tau above 0")
+    return {name: table[:, i] for i, name in enumerate(names)}
 
 
 class Frame:
@@ -50,6 +80,9 @@ class Frame:
 
 def read_dump(path):
     """Frames of a `dump custom` text file, one after the other."""
+    if not path.is_file():
+        raise Unusable(f"there is no {path}, snapshots of the foam (dump custom) with the columns "
+                       f"{' '.join(OF_A_BUBBLE)}")
     with open(path) as f:
         while line := f.readline():
             if line.startswith("ITEM: TIMESTEP"):
@@ -60,32 +93,65 @@ def read_dump(path):
                 box = np.array([f.readline().split()[:2] for _ in range(3)], dtype=float)
             elif line.startswith("ITEM: ATOMS"):
                 names = line.split()[2:]
+                check_columns(path, names, OF_A_BUBBLE)
                 rows = np.loadtxt(f, max_rows=natoms, ndmin=2)
                 yield Frame(step, box, dict(zip(names, rows.T)))
 
 
 def three_frames(directory):
     """First, middle and last snapshot; in the middle ln N is half-way between the others."""
-    first = middle = None
-    last = list(read_dump(Path(directory) / "last.lammpstrj"))[-1]
-    for frame in read_dump(Path(directory) / "foam.lammpstrj"):
+    first = last = middle = None
+    for last in read_dump(directory / "last.lammpstrj"):
+        pass
+    for frame in read_dump(directory / "foam.lammpstrj") if last else ():
         first = first or frame
         target = 0.5 * (np.log(len(first)) + np.log(len(last)))
         off = abs(np.log(len(frame)) - target)
         if middle is None or off < best:
             middle, best = frame, off
+    if middle is None:
+        raise Unusable(f"no snapshot in foam.lammpstrj or last.lammpstrj of {directory}")
     return first, middle, last
 
 
 # ------------------------------------------------------------------ growth
 
-def exponent(series, decades=0.3):
-    """d ln <R> / d ln tau over the last `decades` of tau."""
+WINDOW = 1 / 3      # decades of tau, the width of the windows that slide
+
+
+def exponent(series, end, decades):
+    """d ln <R> / d ln tau: a straight line through all points in end / 10^decades < tau <= end.
+
+    nan where these are fewer than 3 or do not span half of the window.
+    """
     tau, size = series["tau"], series["R"]
-    late = tau > tau[-1] / 10**decades
-    if late.sum() < 3:
+    # the points are as dense as steps: without the last digits of both limits
+    use = (tau > end / 10**decades * (1 - 1e-9)) & (tau <= end * (1 + 1e-9)) & (tau > 0)
+    if use.sum() < 3 or tau[use].max() < tau[use].min() * 10**(0.5 * decades):
         return float("nan")
-    return np.polyfit(np.log(tau[late]), np.log(size[late]), 1)[0]
+    return np.polyfit(np.log(tau[use]), np.log(size[use]), 1)[0]
+
+
+def local_exponents(series, decades=1.0, points=60):
+    """Exponents in windows that slide over the last `decades` of tau: middles (in ln tau), slopes."""
+    ends = series["tau"][-1] * 10**np.linspace(WINDOW - decades, 0, points)
+    slopes = np.array([exponent(series, end, WINDOW) for end in ends])
+    good = np.isfinite(slopes)
+    return ends[good] / 10**(0.5 * WINDOW), slopes[good]
+
+
+def growth_lines(series):
+    """The exponent in words: over the last decade, and how much it depends on the window."""
+    end = series["tau"][-1]
+    begin = max(end / 10, series["tau"][series["tau"] > 0][0])
+    _, slopes = local_exponents(series)
+    if not len(slopes):
+        return ["growth exponent  too few points"]
+    return [
+        f"growth exponent  {exponent(series, end, 1.0):.2f}, between {slopes.min():.2f} and "
+        f"{slopes.max():.2f} in parts of the window",
+        f"                 (d ln <R> / d ln tau, tau = {begin:.3g} to {end:.4g}; parts of 1/3 decade)",
+    ]
 
 
 def slope_guides(ax, x, y, offset, slopes):
@@ -119,22 +185,32 @@ def plot_growth(series, path, dim):
     tau, size, number = (series[name][use] for name in ("tau", "R", "N"))
 
     with plt.rc_context(STYLE):
-        fig, (left, right) = plt.subplots(1, 2, figsize=(11, 4.6), layout="constrained")
+        fig, (left, middle, right) = plt.subplots(1, 3, figsize=(15, 4.4), layout="constrained")
         left.loglog(tau, size, color=BLUE)
         left.set_ylabel(r"mean radius  $\langle R\rangle\,/\,\langle R_\mathrm{in}\rangle$")
         guides = slope_guides(left, tau, size, 0.7, {"1/2": 1 / 2, "1/3": 1 / 3})
         limit_axis(left.yaxis, 0.93 * min(guides.min(), size.min()), 1.07 * max(size))
 
         # N <R>^d is constant once the distribution of R / <R> is
-        right.loglog(tau, number, color=BLUE)
-        right.set_ylabel(r"bubbles  $N$")
+        middle.loglog(tau, number, color=BLUE)
+        middle.set_ylabel(r"bubbles  $N$")
         labels = ("−1", "−2/3") if dim == 2 else ("−3/2", "−1")
-        guides = slope_guides(right, tau, number, 2.0, dict(zip(labels, (-dim / 2, -dim / 3))))
-        limit_axis(right.yaxis, 0.8 * number[-1], 1.25 * max(guides.max(), number.max()))
+        guides = slope_guides(middle, tau, number, 2.0, dict(zip(labels, (-dim / 2, -dim / 3))))
+        limit_axis(middle.yaxis, 0.8 * number[-1], 1.25 * max(guides.max(), number.max()))
 
-        for ax in (left, right):
+        where, slopes = local_exponents(series, decades=3.0, points=180)
+        right.semilogx(where, slopes, color=BLUE)
+        for label, slope in {"1/2": 1 / 2, "1/3": 1 / 3}.items():
+            right.axhline(slope, color=GREY, lw=1.2, ls="-" if slope == 1 / 2 else (0, (4, 2)))
+            right.annotate(label, (1, slope), xytext=(5, 0), textcoords="offset points",
+                           xycoords=("axes fraction", "data"), va="center", color=GREY)
+        right.set_ylim(min(-0.05, *slopes) - 0.05, max(0.65, *slopes + 0.05))
+        right.set_ylabel(r"slope  $\mathrm{d}\ln\langle R\rangle\,/\,\mathrm{d}\ln\tau$")
+        right.set_title("in windows of a third of a decade", fontsize=12)
+
+        for ax in (left, middle, right):
             ax.set_xlabel(TAU)
-            ax.set_xlim(max(tau[0], tau[-1] * 1e-3), tau[-1] * 2)
+            ax.set_xlim(max(tau[0], tau[-1] * 1e-3), tau[-1] * (1 if ax is right else 2))
         fig.savefig(path)
         plt.close(fig)
 
@@ -196,37 +272,80 @@ def plot_foam(frames, series, path, dim, rin):
         plt.close(fig)
 
 
+# ------------------------------------------------------------------ sizes
+
+def chosen_frames(directory):
+    """The start, and the snapshots that at_tau and at_N asked for, in the order of time."""
+    paths = [directory / name for name in ("tau.lammpstrj", "N.lammpstrj")]
+    frames = {frame.step: frame for path in paths if path.is_file() for frame in read_dump(path)}
+    return [frames[step] for step in sorted(frames)]
+
+
+def plot_sizes(frames, series, path):
+    """How R / <R> is distributed among the bubbles of each frame."""
+    relative = [frame["radius"] / frame["radius"].mean() for frame in frames]
+    top = 1.02 * max(np.quantile(r, 0.999) for r in relative)
+    with plt.rc_context(STYLE):
+        fig, ax = plt.subplots(figsize=(7.5, 4.8), layout="constrained")
+        colours = plt.get_cmap("viridis")(np.linspace(0, 0.92, len(frames)))
+        for frame, r, colour in zip(frames, relative, colours):
+            # as many bins as one in ten bubbles, so that each holds some; no more than 40
+            edges = np.linspace(0, top, int(np.clip(len(r) / 10, 8, 40)) + 1)
+            tau = np.interp(frame.step, series["step"], series["tau"])
+            ax.stairs(np.histogram(r, edges)[0] / (len(r) * np.diff(edges)), edges, color=colour,
+                      lw=1.6, label=rf"$\tau = {tau:.3g}$,  $N = {len(r)}$,  "
+                                    rf"$s/\langle R\rangle = {r.std():.2f}$")
+        ax.set(xlim=(0, top), ylim=(0, None), ylabel="probability density",
+               xlabel=r"radius  $R\,/\,\langle R\rangle$")
+        ax.legend(fontsize=11)
+        fig.savefig(path)
+        plt.close(fig)
+
+
 # ------------------------------------------------------------------ all of it
 
 def make_pictures(directory):
-    """Write growth.png and foam.png into `directory`; return their paths and lines of summary."""
+    """Write the pictures into `directory`; return their paths and lines of summary.
+
+    Everything is read, and Unusable raised where something is missing, before anything is drawn.
+    """
     directory = Path(directory)
     series = read_series(directory / "series.csv")
     frames = three_frames(directory)
+    chosen = chosen_frames(directory)
+
     dim = 2 if np.ptp(frames[0]["z"]) == 0 else 3
     rin = frames[0]["radius"].mean() / series["R"][0]
-    growth, foam = directory / "growth.png", directory / "foam.png"
-    plot_growth(series, growth, dim)
-    plot_foam(frames, series, foam, dim, rin)
+    pictures = [directory / "growth.png", directory / "foam.png"]
+    plot_growth(series, pictures[0], dim)
+    plot_foam(frames, series, pictures[1], dim, rin)
+    if chosen:
+        pictures.append(directory / "sizes.png")
+        plot_sizes([frames[0], *chosen], series, pictures[2])
 
     first, last = ({name: column[i] for name, column in series.items()} for i in (0, -1))
-    drift = np.ptp(series["phi"]) / series["phi"][0]
+    largest = f"   (largest {last['Rmax']:.4g})" if "Rmax" in last else ""
+    evaluations = f"   ({last['evaluations']:.0f} evaluations)" if "evaluations" in last else ""
     summary = [
         f"bubbles          {first['N']:.0f} -> {last['N']:.0f}",
         f"tau              {last['tau']:.4g}",
-        f"mean radius      {first['R']:.4g} -> {last['R']:.4g}  <R_in>"
-        f"   (largest {last['Rmax']:.4g})",
-        f"growth exponent  {exponent(series):.3f}   (d ln <R> / d ln tau, last third of a decade)",
-        f"gas fraction     {last['phi']:.6f}   (varied by {drift:.1e})",
-        f"steps            {last['step']:.0f}   ({last['evaluations']:.0f} evaluations)",
+        f"mean radius      {first['R']:.4g} -> {last['R']:.4g}  <R_in>" + largest,
+        *growth_lines(series),
     ]
-    return [growth, foam], summary
+    if "phi" in last:
+        drift = np.ptp(series["phi"]) / series["phi"][0]
+        summary.append(f"gas fraction     {last['phi']:.6f}   (varied by {drift:.1e})")
+    summary.append(f"steps            {last['step']:.0f}" + evaluations)
+    return pictures, summary
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("directory", type=Path)
-    pictures, summary = make_pictures(parser.parse_args().directory)
+    try:
+        pictures, summary = make_pictures(parser.parse_args().directory)
+    except Unusable as wrong:
+        sys.exit(str(wrong))
     print("\n".join(summary))
     print("pictures:", *pictures, sep="\n  ")
 

@@ -4,6 +4,7 @@
     python3 run.py --lmp "mpiexec -n 2 lmp" --out DIR [--var NAME VALUE] ...
 
     python3 run.py --lmp lmp --out small --var N 1000 --var end 100
+    python3 run.py --out sizes --var sizes bidisperse --var at_tau 1,10 --var at_N 1000
 """
 import argparse
 from pathlib import Path
@@ -12,7 +13,7 @@ import subprocess
 import sys
 import time
 
-from plot import make_pictures
+from plot import Unusable, make_pictures
 
 
 def command_words(command):
@@ -37,6 +38,8 @@ def main():
     for name, value in dict(args.var).items():        # the last one counts, if one is repeated
         command += ["-var", name, value]
 
+    for name in ("tau.lammpstrj", "N.lammpstrj"):     # of an earlier run, which asked for them
+        (args.out / name).unlink(missing_ok=True)
     started = time.perf_counter()
     try:
         status = subprocess.run(command, cwd=args.out, stdin=subprocess.DEVNULL).returncode
@@ -46,7 +49,10 @@ def main():
         sys.exit(f"LAMMPS stopped with status {status}: see above, or {args.out / 'log.coarsen'}")
     seconds = time.perf_counter() - started
 
-    pictures, summary = make_pictures(args.out)
+    try:
+        pictures, summary = make_pictures(args.out)
+    except Unusable as wrong:
+        sys.exit(str(wrong))
     print("\n" + "\n".join(summary))
     print(f"seconds          {seconds:.0f}")
     print("table:\n  " + str(args.out / "series.csv"))
