@@ -18,6 +18,7 @@ ComputeStyle(foam/bubble,ComputeFoamBubble);
 
 #include "compute.h"
 #include "fix_foam_coarsen.h"
+#include "foam_diagnostics.h"
 #include "foam_host.h"
 
 #include "atom.h"

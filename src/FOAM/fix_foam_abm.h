@@ -17,6 +17,7 @@ FixStyle(foam/abm,FixFoamABM);
 #define LMP_FIX_FOAM_ABM_H
 
 #include "fix_foam_integrate.h"
+#include "foam_abm.h"
 
 #include "atom.h"
 

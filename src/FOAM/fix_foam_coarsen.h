@@ -18,7 +18,7 @@ FixStyle(foam/coarsen,FixFoamCoarsen);
 
 #include "fix.h"
 #include "foam_input.h"
-#include "foam_loops.h"
+#include "foam_gas.h"
 #include "pair_durian_foam.h"
 
 #include <string>

@@ -14,6 +14,9 @@
 #include "fix_foam_coarsen.h"
 #include "foam_host.h"
 #include "foam_input.h"
+#include "foam_list_guard.h"
+#include "foam_output.h"
+#include "foam_state.h"
 
 #include <array>
 #include <map>
@@ -30,7 +33,7 @@ namespace LAMMPS_NS {
 // final_integrate() turns them into the rates that the next step starts from.  So thermo,
 // dumps and restarts see one consistent state.
 //
-// Loops over bubbles (their bodies: foam_loops.h) are virtual functions of a line: each calls a
+// Loops over bubbles (their functors: foam_state.h) are virtual functions of a line: each calls a
 // template, named with _in, for the space in which this style runs.  A style for a device
 // overrides those and keeps the rest.
 
@@ -71,6 +74,8 @@ class FixFoamIntegrate : public Fix {
   PairDurianFoam *pair = nullptr;
   FixFoamCoarsen *gas = nullptr;    // null: radii stay as they are
   FoamReduce reduce;
+  FoamListGuard list;
+  FoamOutput out;
   int dim;
 
   // settings, from the command: keywords of all schemes, and own ones with what to do with a value
@@ -209,19 +214,13 @@ class FixFoamIntegrate : public Fix {
   template <class Space> double largest_radius_in(Space &);
 
  private:
-  double corners_listed[8][3];
-  bool list_is_new = false;       // built at the present state
   bool ghosts_checked = false;    // their radii are communicated
   bool lags_given = false;        // to LAMMPS' own evaluation before a run
   double atime_start = 0.0;       // LAMMPS' time at the start of the step
-  bool stopping = false;          // the run has reached its end
-  bigint outlisted = 0;           // tries of this run that went beyond the list
   double accepted_then = 0.0;     // steps before this run
   double time_then = 0.0;         // t when LAMMPS' fixes were initialised last
   bool deform_told = false;       // what its styles make of changing steps
   bool idle_told = false;         // that no gas is exchanged
-  bigint dump_foreseen = -1;      // step for which energies of bubbles were asked for in time
-  int delay_given = -1;           // neigh_modify delay, which does not count during a run
   FoamTotals totals;              // of a candidate, over all ranks
 
   std::map<tagint, std::array<double, 3>> places;    // of a triclinic box, before set-up
@@ -229,22 +228,17 @@ class FixFoamIntegrate : public Fix {
   void check_bubbles();
   void check_ghosts();
   void give_lags();
+  void check_companions();
   void check_deform(Fix *);
   std::string worst_bubble();
   template <int D> FoamTotals change_of_rates();
   void take_population();
   void judge(const FoamTotals &mine);
   void remove_small();
-  void rebuild_lists();
   bool history_at_accept() const;
   void accept(double step);
   void set_timestep(double);
-  void schedule_time_dumps();
-  void stop_run(const std::string &);
-  bool output_due() const;
   double largest_step() const;
-  double list_margin() const;
-  void box_corners(double (*)[3]) const;
 };
 
 // ---------------------------------------------------------------------- loops, for any space

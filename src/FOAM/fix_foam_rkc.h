@@ -17,6 +17,8 @@ FixStyle(foam/rkc,FixFoamRKC);
 #define LMP_FIX_FOAM_RKC_H
 
 #include "fix_foam_integrate.h"
+#include "foam_rkc.h"
+#include "foam_spectral.h"
 
 #include "atom.h"
 #include "domain.h"

@@ -10,7 +10,7 @@
 #ifndef LMP_FOAM_CONTACTS_H
 #define LMP_FOAM_CONTACTS_H
 
-#include "foam_loops.h"
+#include "foam_bubbles.h"
 
 // The one loop over contacts, for base and KOKKOS styles: spring forces, and beside them, in the
 // same pass, what drag and gas exchange need.

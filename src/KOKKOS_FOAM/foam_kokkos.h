@@ -11,7 +11,7 @@
 #define LMP_FOAM_KOKKOS_H
 
 #include "foam_columns.h"
-#include "foam_loops.h"
+#include "foam_bubbles.h"
 
 #include "atom_kokkos.h"
 #include "atom_masks.h"

@@ -9,6 +9,8 @@
 
 #include "pair_durian_foam_kokkos.h"
 
+#include "foam_gas.h"
+
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
@@ -98,123 +100,6 @@ template <class DeviceType> void PairDurianFoamKokkos<DeviceType>::compute(int e
   }
 }
 
-/* ----------------------------------------------------------------------
-   rows of pairs from LAMMPS' list
-------------------------------------------------------------------------- */
-
-namespace {
-
-// The list has a pair of owned bubbles once, in the row of either; one of an owned bubble and a
-// ghost in the owned one's.
-
-template <class DeviceType> struct ListedPairs {
-  using AT = ArrayTypes<DeviceType>;
-  typename AT::t_int_1d ilist, numneigh;
-  typename AT::t_neighbors_2d neighbors;
-  FoamRows<DeviceType> rows;
-  typename FoamRows<DeviceType>::Numbers filled;    // single pairs of a row so far
-  int nlocal, chunk;
-
-  struct Chunk {
-    int begin, end;
-    KOKKOS_INLINE_FUNCTION bool has(int j) const { return j >= begin && j < end; }
-  };
-  KOKKOS_INLINE_FUNCTION Chunk chunk_of(int i) const
-  {
-    if (chunk == 1) return {0, 0};    // all pairs are single
-    const int begin = i / chunk * chunk, end = begin + chunk;
-    return {begin, end < nlocal ? end : nlocal};
-  }
-};
-
-template <class DeviceType> struct CountPairs : ListedPairs<DeviceType> {
-  static constexpr const char *NAME = "foam: count pairs";
-  KOKKOS_INLINE_FUNCTION void operator()(int n) const
-  {
-    const int i = this->ilist(n), size = this->numneigh(i);
-    const auto mine = this->chunk_of(i);
-    int shared = 0, single = 0;
-    for (int m = 0; m < size; m++) {
-      const int j = this->neighbors(i, m) & NEIGHMASK;
-      if (mine.has(j))
-        shared++;
-      else {
-        single++;
-        if (j < this->nlocal) Kokkos::atomic_inc(&this->filled(j));
-      }
-    }
-    this->rows.shared(i) = shared;
-    Kokkos::atomic_add(&this->filled(i), single);
-  }
-};
-
-template <class DeviceType> struct PlaceRows : ListedPairs<DeviceType> {
-  using value_type = int;
-  KOKKOS_INLINE_FUNCTION void operator()(int i, int &begin, bool final) const
-  {
-    const int size = i < this->nlocal ? this->rows.shared(i) + this->filled(i) : 0;
-    if (final) {
-      this->rows.first(i) = begin;
-      if (i < this->nlocal) this->filled(i) = 0;
-    }
-    begin += size;
-  }
-};
-
-template <class DeviceType> struct FillRows : ListedPairs<DeviceType> {
-  static constexpr const char *NAME = "foam: fill rows";
-  KOKKOS_INLINE_FUNCTION void operator()(int n) const
-  {
-    const int i = this->ilist(n), size = this->numneigh(i);
-    const auto mine = this->chunk_of(i);
-    int shared = 0;
-    for (int m = 0; m < size; m++) {
-      const int j = this->neighbors(i, m) & NEIGHMASK;
-      if (mine.has(j))
-        this->rows.partner(this->rows.first(i) + shared++) = j;
-      else {
-        append(i, j);
-        if (j < this->nlocal) append(j, i);
-      }
-    }
-  }
-  KOKKOS_INLINE_FUNCTION void append(int i, int j) const
-  {
-    const int place = Kokkos::atomic_fetch_inc(&this->filled(i));
-    this->rows.partner(this->rows.first(i) + this->rows.shared(i) + place) = j;
-  }
-};
-
-// Threads fill a row in any order, and LAMMPS may number ghosts in any order on a device: in order
-// of partners' IDs, the sums of a row come out the same every time.
-
-template <class DeviceType> struct SortRows : ListedPairs<DeviceType> {
-  static constexpr const char *NAME = "foam: sort rows";
-  typename ArrayTypes<DeviceType>::t_tagint_1d tag;
-  KOKKOS_INLINE_FUNCTION void operator()(int i) const
-  {
-    const int begin = this->rows.first(i), end = this->rows.first(i + 1);
-    sort(begin, begin + this->rows.shared(i));
-    sort(begin + this->rows.shared(i), end);
-  }
-  KOKKOS_INLINE_FUNCTION bool behind(int j, int k) const
-  {
-    return tag(j) != tag(k) ? tag(j) > tag(k) : j > k;
-  }
-  KOKKOS_INLINE_FUNCTION void sort(int begin, int end) const
-  {
-    for (int m = begin + 1; m < end; m++) {
-      const int j = this->rows.partner(m);
-      int k = m;
-      for (; k > begin && behind(this->rows.partner(k - 1), j); k--)
-        this->rows.partner(k) = this->rows.partner(k - 1);
-      this->rows.partner(k) = j;
-    }
-  }
-};
-
-}    // namespace
-
 template <class DeviceType> void PairDurianFoamKokkos<DeviceType>::take_list()
 {
   if (!sigma0_known) {
@@ -247,7 +132,7 @@ template <class DeviceType> void PairDurianFoamKokkos<DeviceType>::make_rows()
     Kokkos::deep_copy(DeviceType(), rows.shared, 0);
 
   auto *listed = static_cast<NeighListKokkos<DeviceType> *>(list);
-  const ListedPairs<DeviceType> pairs{
+  const FoamMakeRows::ListedPairs<DeviceType> pairs{
       listed->d_ilist,
       listed->d_numneigh,
       listed->d_neighbors,
@@ -256,71 +141,21 @@ template <class DeviceType> void PairDurianFoamKokkos<DeviceType>::make_rows()
       nlocal,
       chunk};
 
-  here.for_each(list->inum, CountPairs<DeviceType>{pairs});
+  here.for_each(list->inum, FoamMakeRows::CountPairs<DeviceType>{pairs});
   int total = 0;
   Kokkos::parallel_scan("foam: place rows", Kokkos::RangePolicy<DeviceType>(0, nlocal + 1),
-                        PlaceRows<DeviceType>{pairs}, total);
+                        FoamMakeRows::PlaceRows<DeviceType>{pairs}, total);
   if (static_cast<int>(rows.partner.extent(0)) < total)
     rows.partner = typename FoamRows<DeviceType>::Numbers(
         Kokkos::view_alloc("durian/foam:partner", Kokkos::WithoutInitializing),
         static_cast<size_t>(1.1 * total));
-  ListedPairs<DeviceType> placed = pairs;
+  FoamMakeRows::ListedPairs<DeviceType> placed = pairs;
   placed.rows = rows;
-  here.for_each(list->inum, FillRows<DeviceType>{placed});
+  here.for_each(list->inum, FoamMakeRows::FillRows<DeviceType>{placed});
   atomKK->sync(execution_space, TAG_MASK);
-  here.for_each(nlocal, SortRows<DeviceType>{placed, atomKK->k_tag.view<DeviceType>()});
+  here.for_each(nlocal,
+                FoamMakeRows::SortRows<DeviceType>{placed, atomKK->k_tag.view<DeviceType>()});
 }
-
-/* ----------------------------------------------------------------------
-   ghosts
-------------------------------------------------------------------------- */
-
-namespace {
-
-template <class DeviceType> struct OwnIndex {
-  static constexpr const char *NAME = "foam: owners";
-  typename ArrayTypes<DeviceType>::t_int_1d owner;
-  KOKKOS_INLINE_FUNCTION void operator()(int i) const { owner(i) = i; }
-};
-
-template <class DeviceType, bool EVERYTHING> struct RefreshGhosts {
-  static constexpr const char *NAME = EVERYTHING ? "foam: ghosts" : "foam: radii of ghosts";
-  FoamGhosts<DeviceType> g;
-  bool velocities;
-  KOKKOS_INLINE_FUNCTION void operator()(int n) const
-  {
-    const int i = g.nlocal + n, o = g.owner(i);
-    g.b.radius(i) = g.b.radius(o);
-    if constexpr (EVERYTHING) {
-      const int nx = g.boxes(n, 0), ny = g.boxes(n, 1), nz = g.boxes(n, 2);
-      g.b.x(i, 0) = g.b.x(o, 0) + nx * g.xprd + ny * g.xy + nz * g.xz;
-      g.b.x(i, 1) = g.b.x(o, 1) + ny * g.yprd + nz * g.yz;
-      g.b.x(i, 2) = g.b.x(o, 2) + nz * g.zprd;
-      if (velocities)
-        for (int k = 0; k < 3; k++) g.b.v(i, k) = g.b.v(o, k);
-    }
-  }
-};
-
-template <class View, class List> struct PackOne {
-  static constexpr const char *NAME = "foam: pack";
-  View values;
-  List sent;
-  double *buf;
-  KOKKOS_INLINE_FUNCTION void operator()(int m) const { buf[m] = values(sent(m)); }
-};
-template <class View, class List> PackOne(View, List, double *) -> PackOne<View, List>;
-
-template <class View> struct UnpackOne {
-  static constexpr const char *NAME = "foam: unpack";
-  View values;
-  const double *buf;
-  int first;
-  KOKKOS_INLINE_FUNCTION void operator()(int m) const { values(first + m) = buf[m]; }
-};
-template <class View> UnpackOne(View, const double *, int) -> UnpackOne<View>;
-
-}    // namespace
 
 // each bubble's index goes the way of its other numbers, also from ghost to ghost
 

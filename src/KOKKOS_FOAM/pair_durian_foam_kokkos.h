@@ -18,63 +18,14 @@ PairStyle(durian/foam/kk/host,PairDurianFoamKokkos<LMPHostType>);
 #ifndef LMP_PAIR_DURIAN_FOAM_KOKKOS_H
 #define LMP_PAIR_DURIAN_FOAM_KOKKOS_H
 
+#include "foam_ghosts_kokkos.h"
 #include "foam_kokkos.h"
+#include "foam_rows_kokkos.h"
 #include "kokkos_base.h"
 #include "neigh_list_kokkos.h"
 #include "pair_durian_foam.h"
 
 namespace LAMMPS_NS {
-
-// Pairs of bubbles in rows, made of LAMMPS' half list, which knows sizes: its full list does not,
-// and would be several times as long.  Bubbles are cut into chunks of consecutive ones, and a
-// chunk is the work of one thread.  A pair within a chunk occurs once, and both partners get
-// their share; any other occurs in the rows of both partners, and each takes its own.  So nothing
-// is atomic, nothing is sent back from ghosts, and the sums of a bubble are always of the same order.
-// A chunk of one bubble makes it a full list, a single chunk a half list.
-
-template <class DeviceType> struct FoamRows {
-  static constexpr bool CHUNKS = FoamKokkos<DeviceType>::ON_HOST;    // of one bubble elsewhere
-  using Numbers = Kokkos::View<int *, DeviceType>;
-  Numbers first;     // where a row begins, [nlocal+1]
-  Numbers shared;    // how many of its pairs occur once; these come first
-  Numbers partner;
-
-  struct Row {
-    int i, size, shared;
-    const int *partners;
-    template <class Visit> KOKKOS_INLINE_FUNCTION void for_each(const Visit &visit) const
-    {
-      for (int m = 0; m < size; m++) visit(partners[m], CHUNKS && m < shared);
-    }
-  };
-  KOKKOS_INLINE_FUNCTION Row row(int i) const
-  {
-    return {i, first(i + 1) - first(i), CHUNKS ? shared(i) : 0, partner.data() + first(i)};
-  }
-};
-
-// Ghosts of a single rank: images of owned bubbles, some boxes away. As a body, counts these.
-
-template <class DeviceType> struct FoamGhosts {
-  static constexpr const char *NAME = "foam: boxes of ghosts";
-  typename FoamKokkos<DeviceType>::Bubbles b;
-  typename ArrayTypes<DeviceType>::t_int_1d owner;
-  Kokkos::View<int *[3], Kokkos::LayoutRight, DeviceType> boxes;
-  int nlocal;
-  double xprd, yprd, zprd, xy, xz, yz;
-  KOKKOS_INLINE_FUNCTION void operator()(int n) const
-  {
-    const int i = nlocal + n, o = owner(i);
-    const double dz = b.x(i, 2) - b.x(o, 2);
-    const double nz = Kokkos::round(dz / zprd);
-    const double dy = b.x(i, 1) - b.x(o, 1) - nz * yz;
-    const double ny = Kokkos::round(dy / yprd);
-    const double dx = b.x(i, 0) - b.x(o, 0) - nz * xz - ny * xy;
-    boxes(n, 0) = static_cast<int>(Kokkos::round(dx / xprd));
-    boxes(n, 1) = static_cast<int>(ny);
-    boxes(n, 2) = static_cast<int>(nz);
-  }
-};
 
 template <class DeviceType> class PairDurianFoamKokkos : public PairDurianFoam, public KokkosBase {
  public:

@@ -1,0 +1,136 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   This software is distributed under the GNU General Public License.
+   Wet-foam package: see the README file of the package.
+------------------------------------------------------------------------- */
+
+// FixFoamIntegrate: its numbers of each bubble, and its progress, on their way between bubbles, ranks and
+// restart files
+
+#include "fix_foam_integrate.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "update.h"
+
+using namespace LAMMPS_NS;
+
+/* ----------------------------------------------------------------------
+   per-bubble numbers travel with the bubbles
+------------------------------------------------------------------------- */
+
+void FixFoamIntegrate::grow_arrays(int nmax)
+{
+  for (FoamColumns *all : travelling()) all->grow(nmax);
+}
+
+void FixFoamIntegrate::copy_arrays(int i, int j, int)
+{
+  for (FoamColumns *all : travelling()) all->copy(i, j);
+}
+
+// a new bubble, of the radius that it has so far: see check_bubbles()
+
+void FixFoamIntegrate::set_arrays(int i)
+{
+  for (FoamColumns *all : travelling()) all->clear(i);
+  if (!atom->radius_flag) return;
+  const double R = atom->radius[i];
+  columns[Q][i] = dim == 2 ? Foam::q_of<2>(variable, R) : Foam::q_of<3>(variable, R);
+}
+
+int FixFoamIntegrate::pack_exchange(int i, double *buf)
+{
+  int m = 0;
+  for (FoamColumns *all : travelling()) m += all->pack(i, buf + m);
+  return m;
+}
+
+int FixFoamIntegrate::unpack_exchange(int i, double *buf)
+{
+  int m = 0;
+  for (FoamColumns *all : travelling()) m += all->unpack(i, buf + m);
+  return m;
+}
+
+int FixFoamIntegrate::pack_restart(int i, double *buf)
+{
+  // in mid-run the last velocities are the present ones
+
+  if (lags.in_use() && update->whichflag == 1)
+    for (int k = 0; k < 3; k++) lags[LASTX + k][i] = atom->v[i][k];
+  buf[0] = size_restart(i);
+  return 1 + pack_exchange(i, buf + 1);
+}
+
+void FixFoamIntegrate::unpack_restart(int i, int nth)
+{
+  const double *extra = atom->extra[i];
+  for (int m = 0; m < nth; m++) extra += static_cast<int>(*extra);
+  const int count = static_cast<int>(*extra++) - 1;
+  extra += columns.unpack(i, extra);
+  const int rest = count - columns.active();    // lags, low or both, whichever was in use
+  if (rest >= lags.capacity()) {
+    if (!lags.in_use()) lags.use(atom->nmax);
+    extra += lags.unpack(i, extra);
+  }
+  if (rest % lags.capacity() == low.capacity()) low.unpack(i, extra);    // if of use here, too
+}
+
+int FixFoamIntegrate::size_restart(int)
+{
+  int n = 1;
+  for (const FoamColumns *all : travelling()) n += all->active();
+  return n;
+}
+
+int FixFoamIntegrate::maxsize_restart()
+{
+  return 1 + capacity(travelling());
+}
+
+std::vector<double *> FixFoamIntegrate::progress()
+{
+  return {&time,
+          &h,
+          &h_before,
+          &h_last,
+          &accepted,
+          &rejected,
+          &evaluations,
+          &error_last,
+          &bubbles_last,
+          &have_lags,
+          &dt_given,
+          &record.rin,
+          &record.ain,
+          &record.tau,
+          &record.removed_bubbles,
+          &record.removed_gas};
+}
+
+void FixFoamIntegrate::write_restart(FILE *fp)
+{
+  if (comm->me != 0) return;
+  bubbles_last = atom->natoms;
+  if (pair) record = pair->record();
+  std::vector<double> values;
+  for (const double *one : progress()) values.push_back(*one);
+  const int size = static_cast<int>(values.size() * sizeof(double));
+  fwrite(&size, sizeof(int), 1, fp);
+  fwrite(values.data(), size, 1, fp);
+}
+
+void FixFoamIntegrate::restart(char *buf)
+{
+  const auto *values = (const double *) buf;
+  for (double *one : progress()) *one = *values++;
+}
+
+double FixFoamIntegrate::memory_usage()
+{
+  return bytes(all_columns);
+}

@@ -1,0 +1,97 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   This software is distributed under the GNU General Public License.
+   Wet-foam package: see the README file of the package.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_FOAM_BUBBLES_H
+#define LMP_FOAM_BUBBLES_H
+
+#include "foam_physics.h"
+#include "foam_reduce.h"
+#include "lmptype.h"
+
+// Functors of loops over bubbles are written once for base and KOKKOS styles: each is called for one
+// bubble at a time, on the host or on a device.  It holds plain pointers to columns, see foam_columns.h,
+// and B, the way in which LAMMPS stores the bubbles themselves: HostBubbles here, FoamKokkosBubbles in
+// foam_kokkos.h.  Where functors run, a "space" tells (FoamHost, FoamKokkos): it hands out bubbles and
+// columns, loops and sums.
+
+namespace Foam {
+
+using LAMMPS_NS::FoamTotals;
+
+template <class T> struct Rows {    // [n][3]
+  T *first;
+  FOAM_FUNCTION T &operator()(int i, int k) const { return first[3 * static_cast<size_t>(i) + k]; }
+};
+
+template <class T> struct Values {    // [n]
+  T *first;
+  FOAM_FUNCTION T &operator()(int i) const { return first[i]; }
+};
+
+struct HostBubbles {
+  Rows<double> x, v, f;
+  Values<double> radius;
+  Values<int> type;
+  Values<LAMMPS_NS::tagint> tag;
+
+  FOAM_FUNCTION double place(int i, int k) const { return x(i, k); }
+  FOAM_FUNCTION void put(int i, int k, double value) const { x(i, k) = value; }
+};
+
+// What one pass over the contacts gathers
+
+enum Gather : unsigned {
+  FORCE = 1,       // spring forces, energy and virial
+  CONTACTS = 2,    // number of contacts
+  VSUM = 4,        // sum of neighbors' velocities
+  FILM = 8,        // sum of film exchange
+  AREA = 16,       // sum of contact areas
+  ENERGY = 32,     // each bubble's share of the energies
+  DRAG = CONTACTS | VSUM,
+  TO_LOOK_AT = CONTACTS | FILM | AREA | ENERGY
+};
+
+// Sums over the contacts of each bubble, as columns
+
+struct ContactSums {
+  double *contacts, *vsum[3];
+  double *area;                 // sum of A_ij
+  double *film;                 // sum of A_ij (1/R_j - 1/R_i)
+  double *espring, *edurian;    // half of the springs' energies; energy of [L20]
+
+  template <unsigned WHAT> FOAM_FUNCTION void clear(int i) const
+  {
+    if constexpr (WHAT & CONTACTS) contacts[i] = 0.0;
+    if constexpr (WHAT & VSUM) vsum[0][i] = vsum[1][i] = vsum[2][i] = 0.0;
+    if constexpr (WHAT & AREA) area[i] = 0.0;
+    if constexpr (WHAT & FILM) film[i] = 0.0;
+    if constexpr (WHAT & ENERGY) espring[i] = edurian[i] = 0.0;
+  }
+};
+
+// Four sums over all bubbles of all ranks. On a device they may stay there, so that the host
+// need not wait for them: then known is not.
+
+struct Sums {
+  double known[4] = {};
+  const double *elsewhere = nullptr;
+  FOAM_FUNCTION double operator[](int m) const { return elsewhere ? elsewhere[m] : known[m]; }
+};
+
+struct SumsOfOne {    // what one bubble adds to them
+  double sum[4] = {};
+  FOAM_FUNCTION void join(const SumsOfOne &other)
+  {
+    for (int m = 0; m < 4; m++) sum[m] += other.sum[m];
+  }
+};
+
+}    // namespace Foam
+
+#endif

@@ -1,0 +1,75 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   This software is distributed under the GNU General Public License.
+   Wet-foam package: see the README file of the package.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_FOAM_DIAGNOSTICS_H
+#define LMP_FOAM_DIAGNOSTICS_H
+
+#include "foam_gas.h"
+
+// Per-bubble diagnostics: what compute foam/bubble shows
+
+namespace Foam {
+
+enum class Quantity { CONTACTS, AREA, FREE, VFILM, VLIQUID, RDOT, ESPRING, EDURIAN };
+
+struct Quantities {
+  static constexpr int MOST = 8;
+  int count = 0;
+  Quantity name[MOST];
+};
+
+template <int D, class B, class Masks> struct LookAt {
+  static constexpr const char *NAME = "foam: look at bubbles";
+  B b;
+  Masks mask;
+  int groupbit;
+  double *out;    // [n][wanted.count]
+  Quantities wanted;
+  Exchange<D> gas;
+  ContactSums sums;
+
+  FOAM_FUNCTION void operator()(int i) const
+  {
+    const double R = b.radius(i);
+    const bool counts = mask(i) & groupbit;
+    const typename Exchange<D>::Split V = gas(i, R);
+    for (int c = 0; c < wanted.count; c++)
+      out[static_cast<size_t>(i) * wanted.count + c] =
+          counts && R > 0.0 ? value(i, R, V, wanted.name[c]) : 0.0;
+  }
+
+ private:
+  FOAM_FUNCTION double value(int i, double R, const typename Exchange<D>::Split &V,
+                             Quantity name) const
+  {
+    switch (name) {
+      case Quantity::CONTACTS:
+        return sums.contacts[i];
+      case Quantity::AREA:
+        return sums.area[i];
+      case Quantity::FREE:
+        return free_area(surface<D>(R), sums.area[i]);
+      case Quantity::VFILM:
+        return V.film;
+      case Quantity::VLIQUID:
+        return V.liquid;
+      case Quantity::RDOT:
+        return radius_rate<D>(V.film + V.liquid, R);
+      case Quantity::ESPRING:
+        return sums.espring[i];
+      case Quantity::EDURIAN:
+        return sums.edurian[i];
+    }
+    return 0.0;
+  }
+};
+
+}    // namespace Foam
+
+#endif

@@ -1,0 +1,96 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   This software is distributed under the GNU General Public License.
+   Wet-foam package: see the README file of the package.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_FOAM_GAS_H
+#define LMP_FOAM_GAS_H
+
+#include "foam_bubbles.h"
+
+// Gas exchange of a bubble, from the sums over its contacts and over all bubbles
+
+namespace Foam {
+
+// Rate of gas content: Vdot_i = K sum_j A_ij (1/R_j - 1/R_i) + c w_i (1/rho - 1/R_i),
+// see foam_physics.h
+
+// What a bubble adds to the sums over all bubbles that the second part takes: their number,
+// surface, weight and weight / R
+
+template <int D>
+FOAM_FUNCTION void add_free_surface(LiquidLaw law, double R, double contact_area, SumsOfOne &all)
+{
+  if (!(R > 0.0)) return;
+  const double A = surface<D>(R), w = liquid_weight(law, free_area(A, contact_area), R);
+  all.sum[0] += 1.0;
+  all.sum[1] += A;
+  all.sum[2] += w;
+  all.sum[3] += w / R;
+}
+
+template <int D> struct Exchange {
+  double K = 0.0, kappa = 0.0;
+  LiquidLaw law = LiquidLaw::AREA;
+  double Rin = 0.0, Ain = 0.0;
+  const double *film = nullptr, *area = nullptr;    // sums over contacts, of each bubble; or none
+
+  bool through_liquid() const { return K > 0.0 && kappa > 0.0; }
+
+  struct Split {    // the two parts of Vdot
+    double film, liquid;
+  };
+  struct Liquid {    // the state of the whole foam that enters the second
+    double coefficient = 0.0, inverse_rho = 0.0;
+  };
+
+  FOAM_FUNCTION Liquid of(const Sums &all) const
+  {
+    return {liquid_coefficient(law, kappa, K, Rin, Ain, all[1] / all[0]),
+            inverse_critical_radius(all[2], all[3])};
+  }
+  void take(const Sums &all)
+  {
+    sums = all;
+    if (!all.elsewhere) liquid = of(all);
+  }
+
+  FOAM_FUNCTION Split operator()(int i, double R) const
+  {
+    if (!(R > 0.0) || !(K > 0.0)) return {0.0, 0.0};
+    Split split{film ? K * film[i] : 0.0, 0.0};
+    const Liquid l = sums.elsewhere ? of(sums) : liquid;
+    if (l.coefficient > 0.0)
+      split.liquid = liquid_exchange(l.coefficient, weight(i, R), l.inverse_rho, R);
+    return split;
+  }
+
+  Liquid liquid;    // if the sums are known
+  Sums sums;
+
+ private:
+  FOAM_FUNCTION double weight(int i, double R) const
+  {
+    return liquid_weight(law, free_area(surface<D>(R), area[i]), R);
+  }
+};
+
+template <int D, class B> struct LiquidSums {
+  static constexpr const char *NAME = "foam: sums of free surface";
+  static constexpr int SLOT = 0;    // of the sums that stay on a device
+  B b;
+  LiquidLaw law;
+  const double *area;
+  FOAM_FUNCTION void operator()(int i, SumsOfOne &all) const
+  {
+    add_free_surface<D>(law, b.radius(i), area[i], all);
+  }
+};
+
+}    // namespace Foam
+
+#endif

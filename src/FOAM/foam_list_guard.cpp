@@ -1,0 +1,113 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   This software is distributed under the GNU General Public License.
+   Wet-foam package: see the README file of the package.
+------------------------------------------------------------------------- */
+
+#include "foam_list_guard.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+#include "modify.h"
+#include "neighbor.h"
+#include "timer.h"
+#include "update.h"
+
+#include <cmath>
+#include <utility>
+
+using namespace LAMMPS_NS;
+
+void FoamListGuard::built()
+{
+  if (domain->box_change) find_corners(corners_listed);
+  list_is_new = true;
+}
+
+// half of the skin, less what a moving box takes away (the two corners that moved most)
+
+double FoamListGuard::margin() const
+{
+  if (!domain->box_change) return 0.5 * neighbor->skin;
+  double corners[8][3], first = 0.0, second = 0.0;
+  find_corners(corners);
+  for (int c = 0; c < 8; c++) {
+    double square = 0.0;
+    for (int k = 0; k < domain->dimension; k++)
+      square += (corners[c][k] - corners_listed[c][k]) * (corners[c][k] - corners_listed[c][k]);
+    const double d = std::sqrt(square);
+    if (d > first) {
+      second = first;
+      first = d;
+    } else
+      second = MAX(second, d);
+  }
+  return MAX(0.0, 0.5 * (neighbor->skin - (first + second)));
+}
+
+void FoamListGuard::find_corners(double (*corners)[3]) const
+{
+  const double yz = domain->yz, xz = domain->xz, xy = domain->xy;    // 0 in an orthogonal box
+  for (int c = 0; c < 8; c++) {
+    const double a = c & 1, b = (c >> 1) & 1, d = (c >> 2) & 1;
+    corners[c][0] = domain->boxlo[0] + a * domain->xprd + b * xy + d * xz;
+    corners[c][1] = domain->boxlo[1] + b * domain->yprd + d * yz;
+    corners[c][2] = domain->boxlo[2] + d * domain->zprd;
+  }
+}
+
+// out of turn, as Verlet::run() does it in turn
+
+void FoamListGuard::rebuild()
+{
+  timer->stamp(Timer::MODIFY);
+  modify->pre_exchange();
+  if (domain->triclinic) domain->x2lamda(atom->nlocal);
+  domain->pbc();
+  if (domain->box_change) {
+    domain->reset_box();
+    comm->setup();
+    if (neighbor->style) neighbor->setup_bins();
+  }
+  comm->exchange();
+  if (atom->sortfreq > 0 && update->ntimestep >= atom->nextsort) atom->sort();
+  comm->borders();
+  if (domain->triclinic) domain->lamda2x(atom->nlocal + atom->nghost);
+  if (modify->n_pre_neighbor) modify->pre_neighbor();
+  timer->stamp(Timer::COMM);
+  neighbor->build(1);
+  modify->post_neighbor();
+  timer->stamp(Timer::NEIGH);
+}
+
+void FoamListGuard::spare_checks()
+{
+  if (delay_given >= 0 || !neighbor->dist_check) return;
+  delay_given = neighbor->delay;
+  neighbor->delay = MAXSMALLINT / neighbor->every * neighbor->every;
+}
+
+void FoamListGuard::give_checks_back()
+{
+  swap_delay();
+  delay_given = -1;
+}
+
+void FoamListGuard::swap_delay()
+{
+  if (delay_given >= 0) std::swap(neighbor->delay, delay_given);
+}
+
+void FoamListGuard::warn(const char *style, double steps) const
+{
+  if (outlisted > 0.1 * steps && steps >= 10.0 && comm->me == 0)
+    error->warning(FLERR,
+                   "Fix {}: {} of {:.0f} steps were tried in vain, since bubbles went further than "
+                   "half the skin of {}: a larger skin saves them, see the neighbor command",
+                   style, outlisted, steps, neighbor->skin);
+}

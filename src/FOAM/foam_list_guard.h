@@ -1,0 +1,57 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   This software is distributed under the GNU General Public License.
+   Wet-foam package: see the README file of the package.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_FOAM_LIST_GUARD_H
+#define LMP_FOAM_LIST_GUARD_H
+
+#include "pointers.h"
+
+namespace LAMMPS_NS {
+
+// How long a neighbor list is good.  It holds pairs closer than R_i + R_j + skin when built, so it is good
+// for as long as no bubble has moved and grown by more than half the skin.  LAMMPS itself looks at motion
+// only, and not at states that a step tries.
+
+class FoamListGuard : protected Pointers {
+ public:
+  explicit FoamListGuard(LAMMPS *lmp) : Pointers(lmp) {}
+
+  void built();    // just now
+  void state_has_changed() { list_is_new = false; }
+  bool is_new() const { return list_is_new; }    // built at the present state
+  double margin() const;                         // how far a bubble may have moved and grown since
+  void rebuild();                                // out of turn
+
+  // The integrator knows when the list is outdated; LAMMPS' own look at it in each step is spared
+  // during a run.
+
+  void spare_checks();
+  void give_checks_back();
+  template <class Refresh> void with_checks(const Refresh &refresh)    // LAMMPS may print them
+  {
+    swap_delay();
+    refresh();
+    swap_delay();
+  }
+
+  bigint outlisted = 0;    // tries of this run that went beyond a list that was new
+  void warn(const char *style, double steps) const;
+
+ private:
+  double corners_listed[8][3] = {};    // of the box, when the list was built
+  bool list_is_new = false;
+  int delay_given = -1;    // neigh_modify delay, which does not count during a run
+
+  void find_corners(double (*)[3]) const;
+  void swap_delay();
+};
+
+}    // namespace LAMMPS_NS
+
+#endif

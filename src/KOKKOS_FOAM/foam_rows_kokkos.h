@@ -1,0 +1,162 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   This software is distributed under the GNU General Public License.
+   Wet-foam package: see the README file of the package.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_FOAM_ROWS_KOKKOS_H
+#define LMP_FOAM_ROWS_KOKKOS_H
+
+#include "foam_kokkos.h"
+#include "neigh_list_kokkos.h"
+
+namespace LAMMPS_NS {
+
+// Pairs of bubbles in rows, made of LAMMPS' half list, which knows sizes: its full list does not,
+// and would be several times as long.  Bubbles are cut into chunks of consecutive ones, and a
+// chunk is the work of one thread.  A pair within a chunk occurs once, and both partners get
+// their share; any other occurs in the rows of both partners, and each takes its own.  So nothing
+// is atomic, nothing is sent back from ghosts, and the sums of a bubble are always of the same order.
+// A chunk of one bubble makes it a full list, a single chunk a half list.
+
+template <class DeviceType> struct FoamRows {
+  static constexpr bool CHUNKS = FoamKokkos<DeviceType>::ON_HOST;    // of one bubble elsewhere
+  using Numbers = Kokkos::View<int *, DeviceType>;
+  Numbers first;     // where a row begins, [nlocal+1]
+  Numbers shared;    // how many of its pairs occur once; these come first
+  Numbers partner;
+
+  struct Row {
+    int i, size, shared;
+    const int *partners;
+    template <class Visit> KOKKOS_INLINE_FUNCTION void for_each(const Visit &visit) const
+    {
+      for (int m = 0; m < size; m++) visit(partners[m], CHUNKS && m < shared);
+    }
+  };
+  KOKKOS_INLINE_FUNCTION Row row(int i) const
+  {
+    return {i, first(i + 1) - first(i), CHUNKS ? shared(i) : 0, partner.data() + first(i)};
+  }
+};
+
+// ---------------------------------------------------------------------- how they are made
+
+namespace FoamMakeRows {
+
+// The list has a pair of owned bubbles once, in the row of either; one of an owned bubble and a
+// ghost in the owned one's.
+
+template <class DeviceType> struct ListedPairs {
+  using AT = ArrayTypes<DeviceType>;
+  typename AT::t_int_1d ilist, numneigh;
+  typename AT::t_neighbors_2d neighbors;
+  FoamRows<DeviceType> rows;
+  typename FoamRows<DeviceType>::Numbers filled;    // single pairs of a row so far
+  int nlocal, chunk;
+
+  struct Chunk {
+    int begin, end;
+    KOKKOS_INLINE_FUNCTION bool has(int j) const { return j >= begin && j < end; }
+  };
+  KOKKOS_INLINE_FUNCTION Chunk chunk_of(int i) const
+  {
+    if (chunk == 1) return {0, 0};    // all pairs are single
+    const int begin = i / chunk * chunk, end = begin + chunk;
+    return {begin, end < nlocal ? end : nlocal};
+  }
+};
+
+template <class DeviceType> struct CountPairs : ListedPairs<DeviceType> {
+  static constexpr const char *NAME = "foam: count pairs";
+  KOKKOS_INLINE_FUNCTION void operator()(int n) const
+  {
+    const int i = this->ilist(n), size = this->numneigh(i);
+    const auto mine = this->chunk_of(i);
+    int shared = 0, single = 0;
+    for (int m = 0; m < size; m++) {
+      const int j = this->neighbors(i, m) & NEIGHMASK;
+      if (mine.has(j))
+        shared++;
+      else {
+        single++;
+        if (j < this->nlocal) Kokkos::atomic_inc(&this->filled(j));
+      }
+    }
+    this->rows.shared(i) = shared;
+    Kokkos::atomic_add(&this->filled(i), single);
+  }
+};
+
+template <class DeviceType> struct PlaceRows : ListedPairs<DeviceType> {
+  using value_type = int;
+  KOKKOS_INLINE_FUNCTION void operator()(int i, int &begin, bool final) const
+  {
+    const int size = i < this->nlocal ? this->rows.shared(i) + this->filled(i) : 0;
+    if (final) {
+      this->rows.first(i) = begin;
+      if (i < this->nlocal) this->filled(i) = 0;
+    }
+    begin += size;
+  }
+};
+
+template <class DeviceType> struct FillRows : ListedPairs<DeviceType> {
+  static constexpr const char *NAME = "foam: fill rows";
+  KOKKOS_INLINE_FUNCTION void operator()(int n) const
+  {
+    const int i = this->ilist(n), size = this->numneigh(i);
+    const auto mine = this->chunk_of(i);
+    int shared = 0;
+    for (int m = 0; m < size; m++) {
+      const int j = this->neighbors(i, m) & NEIGHMASK;
+      if (mine.has(j))
+        this->rows.partner(this->rows.first(i) + shared++) = j;
+      else {
+        append(i, j);
+        if (j < this->nlocal) append(j, i);
+      }
+    }
+  }
+  KOKKOS_INLINE_FUNCTION void append(int i, int j) const
+  {
+    const int place = Kokkos::atomic_fetch_inc(&this->filled(i));
+    this->rows.partner(this->rows.first(i) + this->rows.shared(i) + place) = j;
+  }
+};
+
+// Threads fill a row in any order, and LAMMPS may number ghosts in any order on a device: in order
+// of partners' IDs, the sums of a row come out the same every time.
+
+template <class DeviceType> struct SortRows : ListedPairs<DeviceType> {
+  static constexpr const char *NAME = "foam: sort rows";
+  typename ArrayTypes<DeviceType>::t_tagint_1d tag;
+  KOKKOS_INLINE_FUNCTION void operator()(int i) const
+  {
+    const int begin = this->rows.first(i), end = this->rows.first(i + 1);
+    sort(begin, begin + this->rows.shared(i));
+    sort(begin + this->rows.shared(i), end);
+  }
+  KOKKOS_INLINE_FUNCTION bool behind(int j, int k) const
+  {
+    return tag(j) != tag(k) ? tag(j) > tag(k) : j > k;
+  }
+  KOKKOS_INLINE_FUNCTION void sort(int begin, int end) const
+  {
+    for (int m = begin + 1; m < end; m++) {
+      const int j = this->rows.partner(m);
+      int k = m;
+      for (; k > begin && behind(this->rows.partner(k - 1), j); k--)
+        this->rows.partner(k) = this->rows.partner(k - 1);
+      this->rows.partner(k) = j;
+    }
+  }
+};
+
+}    // namespace FoamMakeRows
+}    // namespace LAMMPS_NS
+
+#endif
