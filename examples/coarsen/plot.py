@@ -204,7 +204,7 @@ def plot_growth(series, path, dim):
             right.axhline(slope, color=GREY, lw=1.2, ls="-" if slope == 1 / 2 else (0, (4, 2)))
             right.annotate(label, (1, slope), xytext=(5, 0), textcoords="offset points",
                            xycoords=("axes fraction", "data"), va="center", color=GREY)
-        right.set_ylim(min(-0.05, *slopes) - 0.05, max(0.65, *slopes + 0.05))
+        right.set_ylim(min([-0.05, *slopes]) - 0.05, max([0.6, *slopes]) + 0.05)
         right.set_ylabel(r"slope  $\mathrm{d}\ln\langle R\rangle\,/\,\mathrm{d}\ln\tau$")
         right.set_title("in windows of a third of a decade", fontsize=12)
 

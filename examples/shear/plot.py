@@ -27,7 +27,13 @@ def read(path):
     missing = [name for name in NEEDED if name not in names]
     if missing:
         sys.exit(f"{path} lacks the columns: {', '.join(missing)}")
-    return dict(zip(names, np.array(rows[1:], dtype=float).reshape(-1, len(names)).T))
+    try:
+        table = np.array(rows[1:], dtype=float)
+    except ValueError:
+        sys.exit(f"{path}: each line below the first needs {len(names)} numbers")
+    if len(table) < 2:
+        sys.exit(f"{path} has {len(table)} lines of numbers: a curve needs two at least")
+    return dict(zip(names, table.T))
 
 
 def late(table):

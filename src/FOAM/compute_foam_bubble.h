@@ -51,7 +51,7 @@ class ComputeFoamBubble : public Compute {
 
   template <class Space, class Masks> void look(Space &here, const Masks &mask, double *out)
   {
-    domain->dimension == 2 ? look_in<2>(here, mask, out) : look_in<3>(here, mask, out);
+    Foam::with_dimension(domain->dimension, [&]<int D>() { look_in<D>(here, mask, out); });
   }
 
  private:

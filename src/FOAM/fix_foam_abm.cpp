@@ -31,7 +31,7 @@ FixFoamABM::FixFoamABM(LAMMPS *lmp, int narg, char **arg) : FixFoamIntegrate(lmp
 FoamTotals FixFoamABM::attempt(double step, bool first)
 {
   FoamHost here(lmp);
-  return dim == 2 ? attempt_in<2>(here, step, first) : attempt_in<3>(here, step, first);
+  return Foam::with_dimension(dim, [&]<int D>() { return attempt_in<D>(here, step, first); });
 }
 
 // the source takes the rates at the predicted state for those at the corrected one

@@ -9,7 +9,6 @@
 
 #include "fix_foam_coarsen.h"
 
-#include "fix_foam_integrate.h"
 #include "foam_input.h"
 #include "lammps_compat.h"
 
@@ -91,7 +90,19 @@ int FixFoamCoarsen::modify_param(int narg, char **arg)
                  }});
   FoamInput input(error, "Fix foam/coarsen: fix_modify", MIN(narg, 2), arg);
   input.keywords(all);
+  if (find_pair()) tell(*pair);    // at once: the next run may have no set-up
+  changed = true;
   return 2;
+}
+
+// what it has to gather
+
+void FixFoamCoarsen::tell(PairDurianFoam &its_pair) const
+{
+  its_pair.gas_wanted = 0;
+  if (K > 0.0 && through_films) its_pair.gas_wanted |= Foam::FILM;
+  if (K > 0.0 && kappa > 0.0) its_pair.gas_wanted |= Foam::AREA;
+  its_pair.liquid_law = law;
 }
 
 // it may have been replaced since the last run
@@ -114,18 +125,10 @@ void FixFoamCoarsen::init()
     error->all(FLERR, "Fix foam/coarsen: only one fix of this style can be used at a time");
   bool integrated = false;
   for (auto &ifix : modify->get_fix_list())
-    if (dynamic_cast<FixFoamIntegrate *>(ifix)) integrated = true;
+    if (ifix->time_integrate && utils::strmatch(ifix->style, "^foam/")) integrated = true;
   if (!integrated)
     error->all(FLERR,
                "Fix foam/coarsen needs a fix that integrates the foam, fix foam/rkc or foam/abm");
-}
-
-unsigned FixFoamCoarsen::wanted() const
-{
-  unsigned what = 0;
-  if (K > 0.0 && through_films) what |= Foam::FILM;
-  if (K > 0.0 && kappa > 0.0) what |= Foam::AREA;
-  return what;
 }
 
 /* ---------------------------------------------------------------------- */

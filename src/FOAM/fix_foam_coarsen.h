@@ -48,8 +48,8 @@ class FixFoamCoarsen : public Fix {
   Population population;
 
   bool ready() const { return pair; }    // since its first run
-  unsigned wanted() const;               // what the pair style has to gather for it
-  Foam::LiquidLaw liquid_law() const { return law; }
+  void tell(PairDurianFoam &) const;     // what to gather
+  bool changed = false;                  // by fix_modify, so that known rates are outdated
 
   // the law for the sums over contacts that the pair style gathered last; on all ranks, as
   // exchange through the liquid takes sums over all bubbles

@@ -160,9 +160,9 @@ void FixFoamIntegrate::init()
 
   // what is switched off is not gathered
 
-  pair->gas_wanted = gas ? gas->wanted() : 0;
+  pair->gas_wanted = 0;
+  if (gas) gas->tell(*pair);
   pair->radii_change = gas != nullptr;
-  if (gas) pair->liquid_law = gas->liquid_law();
   if (pair->neighbor_drag) lags.use(atom->nmax);
 }
 
@@ -181,6 +181,13 @@ void FixFoamIntegrate::initial_integrate(int)
   bool refused = false, first = true;
   atime_start = update->atime;
   if (domain->box_change) list.state_has_changed();    // the box has moved since
+  if (gas && gas->changed) {                           // and no set-up has looked at it
+    evaluate(0.0);
+    take_rates(false);
+    have_lags = lagged();
+    h_before = 0.0;
+    gas->changed = false;
+  }
 
   while (true) {
     const double step = MIN(h, largest_step());
@@ -295,7 +302,7 @@ void FixFoamIntegrate::remove_small()
                  "rmin at once; lower rmin or the tolerance, or end the run earlier with nmin",
                  style, update->ntimestep, time, totals.sum[REMOVED]);
     const double factor = redistribution_factor(totals.sum[GAS_REMOVED], totals.sum[GAS]);
-    scale = dim == 2 ? radius_of_power<2>(factor) : radius_of_power<3>(factor);
+    scale = with_dimension(dim, [&]<int D>() { return radius_of_power<D>(factor); });
     redistribute(variable == Variable::RADIUS ? scale : factor);
   }
   gas->population = {totals.sum[BUBBLES], totals.sum[RADII] * scale,

@@ -152,6 +152,10 @@ class FixFoamIntegrate : public Fix {
   void evaluate(double later);
 
   bool lagged() const;    // does the pair style take l from v
+  double q_of(double R) const
+  {
+    return Foam::with_dimension(dim, [&]<int D>() { return Foam::q_of<D>(variable, R); });
+  }
   bool grows() const { return gas && gas->K > 0.0; }
   double natural_time() const;
   template <class Space> Foam::State<typename Space::Bubbles> state(Space &here)
@@ -271,20 +275,17 @@ template <class Space> void FixFoamIntegrate::keep_history_in(Space &here)
 {
   using B = typename Space::Bubbles;
   const auto s = state(here);
-  if (dim == 2)
-    here.for_each(atom->nlocal, Foam::KeepHistory<2, B>{s});
-  else
-    here.for_each(atom->nlocal, Foam::KeepHistory<3, B>{s});
+  Foam::with_dimension(dim,
+                       [&]<int D>() { here.for_each(atom->nlocal, Foam::KeepHistory<D, B>{s}); });
 }
 
 template <class Space> void FixFoamIntegrate::take_rates_in(Space &here, bool history)
 {
   using B = typename Space::Bubbles;
   const auto s = state(here);
-  if (dim == 2)
-    here.for_each(atom->nlocal, Foam::TakeRates<2, B>{s, rates<2>(here), history, lagged()});
-  else
-    here.for_each(atom->nlocal, Foam::TakeRates<3, B>{s, rates<3>(here), history, lagged()});
+  Foam::with_dimension(dim, [&]<int D>() {
+    here.for_each(atom->nlocal, Foam::TakeRates<D, B>{s, rates<D>(here), history, lagged()});
+  });
 }
 
 template <class Space> void FixFoamIntegrate::redistribute_in(Space &here, double factor)
@@ -292,20 +293,17 @@ template <class Space> void FixFoamIntegrate::redistribute_in(Space &here, doubl
   using B = typename Space::Bubbles;
   const auto s = state(here);
   const double smallest = gas->smallest_radius();
-  if (dim == 2)
-    here.for_each(atom->nlocal, Foam::Redistribute<2, B>{s, smallest, factor});
-  else
-    here.for_each(atom->nlocal, Foam::Redistribute<3, B>{s, smallest, factor});
+  Foam::with_dimension(dim, [&]<int D>() {
+    here.for_each(atom->nlocal, Foam::Redistribute<D, B>{s, smallest, factor});
+  });
 }
 
 template <class Space> void FixFoamIntegrate::return_to_start_in(Space &here)
 {
   using B = typename Space::Bubbles;
   const auto s = state(here);
-  if (dim == 2)
-    here.for_each(atom->nlocal, Foam::ReturnToStart<2, B>{s});
-  else
-    here.for_each(atom->nlocal, Foam::ReturnToStart<3, B>{s});
+  Foam::with_dimension(dim,
+                       [&]<int D>() { here.for_each(atom->nlocal, Foam::ReturnToStart<D, B>{s}); });
 }
 
 template <class Space> void FixFoamIntegrate::take_listed_in(Space &here)

@@ -123,9 +123,11 @@ std::string FixFoamIntegrate::worst_bubble()
       its.sum[6] = gas ? start[RSTART][i] : atom->radius[i];
     }
   its = reduce(its);
-  return fmt::format("{} bubble {:.0f}, of radius {:.8} at {:.8} {:.8} {:.8}, {} {:.4} {:.4} {:.4}",
-                     std::isfinite(most) ? "the largest force acts on" : "no numbers has", tag,
-                     its.sum[6], its.sum[0], its.sum[1], its.sum[2],
-                     std::isfinite(most) ? "which is" : "on which the force is", its.sum[3],
-                     its.sum[4], its.sum[5]);
+  std::string message =
+      fmt::format("bubble {:.0f}, of radius {:.8} and at {:.8} {:.8} {:.8} when the step began",
+                  tag, its.sum[6], its.sum[0], its.sum[1], its.sum[2]);
+  if (std::isfinite(most))
+    return fmt::format("the largest force, {:.4} {:.4} {:.4}, acts on {}", its.sum[3], its.sum[4],
+                       its.sum[5], message);
+  return fmt::format("the force on it, the velocity or the place of {}, is no number", message);
 }

@@ -98,8 +98,8 @@ void FixFoamIntegrate::check_bubbles()
   for (int i = 0; i < atom->nlocal; i++) {
     const double R = atom->radius[i];
     const double known =
-        dim == 2 ? Foam::radius_of<2>(variable, q[i]) : Foam::radius_of<3>(variable, q[i]);
-    if (known != R) q[i] = dim == 2 ? Foam::q_of<2>(variable, R) : Foam::q_of<3>(variable, R);
+        Foam::with_dimension(dim, [&]<int D>() { return Foam::radius_of<D>(variable, q[i]); });
+    if (known != R) q[i] = q_of(R);
   }
 }
 
@@ -159,7 +159,8 @@ void FixFoamIntegrate::setup(int)
   // Those of the source belong to the predicted state, within the tolerance of the present one;
   // its velocities with neighbor drag do not settle, and so tell nothing.
 
-  const FoamTotals change = dim == 2 ? change_of_rates<2>() : change_of_rates<3>();
+  const FoamTotals change =
+      Foam::with_dimension(dim, [&]<int D>() { return change_of_rates<D>(); });
   constexpr double SAME = 1.0e-6;    // well above rounding, well below any change of interest
   double v_same = SAME * change.max[1], qdot_same = SAME * change.max[3];
   if (!evaluates_again()) {
@@ -183,6 +184,7 @@ void FixFoamIntegrate::setup(int)
   if (change.max[0] > v_same || change.max[2] > qdot_same || bubbles_last != atom->natoms)
     h_before = 0.0;
 
+  if (gas) gas->changed = false;
   if (evaluates_again() || h_before == 0.0) {
     take_rates(false);
     have_lags = lagged();
@@ -270,7 +272,7 @@ void FixFoamIntegrate::take_population()
   for (int i = 0; i < atom->nlocal; i++) {
     mine.sum[BUBBLES] += 1.0;
     mine.sum[RADII] += atom->radius[i];
-    mine.sum[GAS] += dim == 2 ? gas_content<2>(variable, q[i]) : gas_content<3>(variable, q[i]);
+    mine.sum[GAS] += with_dimension(dim, [&]<int D>() { return gas_content<D>(variable, q[i]); });
     mine.max[LARGEST] = MAX(mine.max[LARGEST], atom->radius[i]);
   }
   const FoamTotals all = reduce(mine);

@@ -39,7 +39,7 @@ void FixFoamIntegrate::set_arrays(int i)
   for (FoamColumns *all : travelling()) all->clear(i);
   if (!atom->radius_flag) return;
   const double R = atom->radius[i];
-  columns[Q][i] = dim == 2 ? Foam::q_of<2>(variable, R) : Foam::q_of<3>(variable, R);
+  columns[Q][i] = q_of(R);
 }
 
 int FixFoamIntegrate::pack_exchange(int i, double *buf)
@@ -128,6 +128,10 @@ void FixFoamIntegrate::restart(char *buf)
 {
   const auto *values = (const double *) buf;
   for (double *one : progress()) *one = *values++;
+
+  // a file that is written in a run has the step just taken for the timestep
+
+  if (dt_given > 0.0 && update->dt == h_last) set_timestep(dt_given);
 }
 
 double FixFoamIntegrate::memory_usage()

@@ -33,7 +33,7 @@ FixFoamRKC::FixFoamRKC(LAMMPS *lmp, int narg, char **arg) : FixFoamIntegrate(lmp
 FoamTotals FixFoamRKC::attempt(double step, bool first)
 {
   FoamHost here(lmp);
-  return dim == 2 ? attempt_in<2>(here, step, first) : attempt_in<3>(here, step, first);
+  return Foam::with_dimension(dim, [&]<int D>() { return attempt_in<D>(here, step, first); });
 }
 
 // fix enforce2d, which 2D scenes often have, sets to 0 what is 0

@@ -11,9 +11,10 @@
 #define LMP_FOAM_CONTACTS_H
 
 #include "foam_bubbles.h"
+#include "foam_law.h"
 
-// The one loop over contacts, for base and KOKKOS styles: spring forces, and beside them, in the
-// same pass, what drag and gas exchange need.
+// The one loop over contacts, for base and KOKKOS styles: forces by a contact law (foam_law.h), and beside
+// them, in the same pass, what drag and gas exchange need.
 
 namespace Foam {
 
@@ -55,7 +56,7 @@ template <class Run> bool for_each_gathered(unsigned what, Run &&run)
   }
 }
 
-struct Springs {
+struct Coefficients {
   const double *sigma0;    // of a pair of types, [ntypes+1][ntypes+1]
   int ntypes;
   double Rin;
@@ -72,10 +73,12 @@ struct NoTally {
 // Tally, if ON, is told the energy and the force of each pair.
 // A bubble's own sums are added to what is there, or, if ASSIGN, take its place.
 
-template <int D, unsigned WHAT, bool ASSIGN, class B, class List, class Tally> struct ContactLoop {
+template <int D, unsigned WHAT, bool ASSIGN, class Law, class B, class List, class Tally>
+struct ContactLoop {
   B b;
   List list;
-  Springs springs;
+  Law law;
+  Coefficients coefficients;
   ContactSums sums;
   bool forces_add;    // even then
 
@@ -86,13 +89,15 @@ template <int D, unsigned WHAT, bool ASSIGN, class B, class List, class Tally> s
 
     const auto row = list.row(n);
     const ContactSums s = sums;
-    const double Rin = springs.Rin;
+    const Law force_law = law;
+    const double Rin = coefficients.Rin;
     const int i = row.i;
     const double Ri = b.radius(i);
     const double xi[3] = {b.x(i, 0), b.x(i, 1), D == 3 ? b.x(i, 2) : 0.0};
     const double *const sigma0_i =
-        springs.ntypes == 1 ? nullptr : springs.sigma0 + b.type(i) * (springs.ntypes + 1);
-    const double sigma0 = springs.sigma0[springs.ntypes + 2];    // of types 1 and 1
+        coefficients.ntypes == 1 ? nullptr
+                                 : coefficients.sigma0 + b.type(i) * (coefficients.ntypes + 1);
+    const double sigma0 = coefficients.sigma0[coefficients.ntypes + 2];    // of types 1 and 1
     double fi[3] = {}, vsum_i[3] = {};
     double contacts_i = 0.0, area_i = 0.0, film_i = 0.0, espring_i = 0.0, edurian_i = 0.0;
 
@@ -113,7 +118,7 @@ template <int D, unsigned WHAT, bool ASSIGN, class B, class List, class Tally> s
       [[maybe_unused]] double F_xyz[3] = {};
       [[maybe_unused]] double A = 0.0, exchange = 0.0, half_spring = 0.0, durian = 0.0;
       if constexpr (WHAT & FORCE) {
-        const double F = spring_force(sigma * Rin, overlap, Rsum);
+        const double F = force_law.force(sigma * Rin, overlap, Rsum);
         double F_over_r = 0.0;    // stays 0 at r = 0, where force and virial have no direction
         if (r > 0.0) {
           F_over_r = F / r;
@@ -121,7 +126,7 @@ template <int D, unsigned WHAT, bool ASSIGN, class B, class List, class Tally> s
         } else
           F_xyz[0] = coincident_sign(b.tag(i), b.tag(j)) * F;
         if constexpr (Tally::ON)
-          tally.pair(i, j, both, spring_energy(sigma * Rin, overlap, Rsum), F_over_r, del);
+          tally.pair(i, j, both, force_law.energy(sigma * Rin, overlap, Rsum), F_over_r, del);
         for (int k = 0; k < D; k++) fi[k] += F_xyz[k];
       }
       if constexpr (WHAT & CONTACTS) contacts_i += 1.0;
@@ -134,7 +139,7 @@ template <int D, unsigned WHAT, bool ASSIGN, class B, class List, class Tally> s
         film_i += exchange;
       }
       if constexpr (WHAT & ENERGY) {
-        half_spring = 0.5 * spring_energy(sigma * Rin, overlap, Rsum);
+        half_spring = 0.5 * force_law.energy(sigma * Rin, overlap, Rsum);
         durian = durian_energy(sigma, overlap);
         espring_i += half_spring;
         edurian_i += durian;

@@ -30,6 +30,13 @@
 
 namespace Foam {
 
+// The dimension is a template argument wherever it matters: run<D>() for the one that LAMMPS is told
+
+template <class Run> auto with_dimension(int dimension, Run &&run)
+{
+  return dimension == 2 ? run.template operator()<2>() : run.template operator()<3>();
+}
+
 inline constexpr double PI = 3.14159265358979323846;
 
 // ---------------------------------------------------------------------- one bubble

@@ -11,6 +11,7 @@
 
 #include "foam_input.h"
 #include "foam_host.h"
+#include "foam_laws.h"
 
 #include "atom.h"
 #include "comm.h"
@@ -126,9 +127,12 @@ template <bool NEWTON> struct HalfList {
 
 void PairDurianFoam::gather_contacts(unsigned what)
 {
-  const bool flat = domain->dimension == 2;
-  const bool done = Foam::for_each_gathered(
-      what, [&]<unsigned WHAT>() { flat ? gather_in<2, WHAT>() : gather_in<3, WHAT>(); });
+  bool done = false;
+  Foam::with_law(law, [&](const auto &chosen) {
+    done = Foam::for_each_gathered(what, [&]<unsigned WHAT>() {
+      Foam::with_dimension(domain->dimension, [&]<int D>() { gather_in<D, WHAT>(chosen); });
+    });
+  });
   if (!done) error->one(FLERR, "Pair style durian/foam: no loop gathers {}", what);
 
   gathered = what & ~Foam::FORCE;
@@ -145,11 +149,11 @@ struct PairDurianFoam::Tally {
   }
 };
 
-template <int D, unsigned WHAT> void PairDurianFoam::gather_in()
+template <int D, unsigned WHAT, class Law> void PairDurianFoam::gather_in(const Law &chosen)
 {
   FoamHost here(lmp);
   const int nlocal = atom->nlocal, newton = force->newton_pair;
-  const Foam::Springs springs{sigma0[0], atom->ntypes, rin};
+  const Foam::Coefficients coefficients{sigma0[0], atom->ntypes, rin};
   const Foam::ContactSums sums = contact_sums(here);
   const int nall = nlocal + (newton ? atom->nghost : 0);
   for (int i = 0; i < nall; i++) sums.clear<WHAT>(i);
@@ -157,8 +161,8 @@ template <int D, unsigned WHAT> void PairDurianFoam::gather_in()
   auto loop = [&]<bool NEWTON, class T>(T tally) {
     using List = HalfList<NEWTON>;
     const List half{list->ilist, list->numneigh, list->firstneigh, nlocal};
-    const Foam::ContactLoop<D, WHAT, false, Foam::HostBubbles, List, T> body{here.bubbles(), half,
-                                                                             springs, sums, true};
+    const Foam::ContactLoop<D, WHAT, false, Law, Foam::HostBubbles, List, T> body{
+        here.bubbles(), half, chosen, coefficients, sums, true};
     for (int n = 0; n < list->inum; n++) body(n, tally);
   };
   if (evflag) {
@@ -219,7 +223,8 @@ void PairDurianFoam::init_style()
     if (radius[i] > 0.0) {
       mine[0] += 1.0;
       mine[1] += radius[i];
-      mine[2] += domain->dimension == 2 ? Foam::surface<2>(radius[i]) : Foam::surface<3>(radius[i]);
+      mine[2] += Foam::with_dimension(domain->dimension,
+                                      [&]<int D>() { return Foam::surface<D>(radius[i]); });
       largest = MAX(largest, radius[i]);
     }
   MPI_Allreduce(mine, all, 3, MPI_DOUBLE, MPI_SUM, world);
@@ -252,18 +257,18 @@ void PairDurianFoam::check_companions()
         "Pair style durian/foam: rerun reads no radii and keeps bubbles that have vanished, so "
         "that a foam with fix foam/coarsen would be another one: write restart or data files "
         "during the run and read these");
-  if (companions_told || comm->me != 0) return;
-  if (rerun) {
-    companions_told = true;
+  if (comm->me != 0) return;
+  if (rerun && !rerun_told) {
+    rerun_told = true;
     error->warning(
         FLERR, "Pair style durian/foam: rerun takes places from the dump, but neither radii nor "
                "the number of bubbles: energies and contacts are right only for a foam that has "
                "not coarsened");
   }
-  if (update->whichflag != 1) return;
+  if (update->whichflag != 1 || inertia_told) return;
   for (auto &ifix : modify->get_fix_list())
     if (ifix->time_integrate && !utils::strmatch(ifix->style, "^foam/")) {
-      companions_told = true;
+      inertia_told = true;
       error->warning(
           FLERR,
           "Pair style durian/foam: fix {} moves the bubbles by their inertia, without the "
@@ -422,8 +427,12 @@ double PairDurianFoam::single(int i, int j, int itype, int jtype, double rsq, do
   const double Ri = atom->radius[i], Rj = atom->radius[j], Rsum = Ri + Rj;
   if (!(rsq < Rsum * Rsum) || !(Ri > 0.0) || !(Rj > 0.0)) return 0.0;
   const double r = std::sqrt(rsq), stiffness = sigma0[itype][jtype] * rin;
-  if (r > 0.0) fforce = Foam::spring_force(stiffness, Rsum - r, Rsum) / r;
-  return Foam::spring_energy(stiffness, Rsum - r, Rsum);
+  double energy = 0.0;
+  Foam::with_law(law, [&](const auto &chosen) {
+    if (r > 0.0) fforce = chosen.force(stiffness, Rsum - r, Rsum) / r;
+    energy = chosen.energy(stiffness, Rsum - r, Rsum);
+  });
+  return energy;
 }
 
 void *PairDurianFoam::extract(const char *name, int &dim)

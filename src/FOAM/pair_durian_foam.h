@@ -18,6 +18,7 @@ PairStyle(durian/foam,PairDurianFoam);
 
 #include "foam_columns.h"
 #include "foam_contacts.h"
+#include "foam_law.h"
 #include "pair.h"
 
 namespace LAMMPS_NS {
@@ -100,19 +101,20 @@ class PairDurianFoam : public Pair {
   double headroom;              // cutoffs hold for radii up to headroom * present largest
   double cutoff_radius;         // the largest radius the present cutoffs are good for
   double **sigma0;              // per pair of types
-  int list_flags;               // of the request for a neighbor list
-  unsigned gathered;            // what is sent in reverse communication
+  Foam::LawChoice law;
+  int list_flags;       // of the request for a neighbor list
+  unsigned gathered;    // what is sent in reverse communication
 
   void allocate();
   void check_companions();
   void tell_means(const char *whence) const;
-  bool companions_told = false;
+  bool rerun_told = false, inertia_told = false;
   void check_images(double largest);
   void fit_thickness();
   void gather(unsigned);
   virtual void gather_contacts(unsigned);    // the loop itself
   struct Tally;
-  template <int D, unsigned WHAT> void gather_in();
+  template <int D, unsigned WHAT, class Law> void gather_in(const Law &);
 };
 
 }    // namespace LAMMPS_NS

@@ -12,6 +12,7 @@
 #include "pair_durian_foam.h"
 
 #include "foam_input.h"
+#include "foam_laws.h"
 
 #include "atom.h"
 #include "comm.h"
@@ -24,7 +25,7 @@
 using namespace LAMMPS_NS;
 
 // numbers of a restart file
-static constexpr int SETTINGS = 10;
+static constexpr int SETTINGS = 11 + Foam::LawChoice::MOST;
 
 void PairDurianFoam::allocate()
 {
@@ -46,7 +47,18 @@ void PairDurianFoam::settings(int narg, char **arg)
 
   neighbor_drag = false;
   headroom = 1.2;
-  input.keywords({{"drag",
+  law = {};
+  input.keywords({{"law",
+                   [&](const Value &v) {
+                     law.index = v.one_of(Foam::names_of_laws());
+                     Foam::with_law(law, [&](const auto &chosen) {
+                       auto number = law.parameters.begin();
+                       for (const auto &[name, above] : chosen.PARAMETERS)
+                         *number++ = input.argument(fmt::format("{} of law {}", name, chosen.NAME))
+                                         .number(FoamInput::ABOVE, above);
+                     });
+                   }},
+                  {"drag",
                    [&](const Value &v) {
                      neighbor_drag = v.one_of({"static", "neighbor"}) == 1;
                    }},
@@ -114,9 +126,11 @@ void PairDurianFoam::read_restart(FILE *fp)
 
 void PairDurianFoam::write_restart_settings(FILE *fp)
 {
-  const double values[SETTINGS] = {
-      mu0,      rin, double(rin_fixed), ain,        double(ain_fixed), double(neighbor_drag),
-      headroom, tau, removed_bubbles,   removed_gas};
+  double values[SETTINGS] = {
+      mu0,      rin, double(rin_fixed), ain,         double(ain_fixed), double(neighbor_drag),
+      headroom, tau, removed_bubbles,   removed_gas, double(law.index)};
+  std::copy(law.parameters.begin(), law.parameters.end(),
+            values + SETTINGS - law.parameters.size());
   fwrite(values, sizeof(double), SETTINGS, fp);
 }
 
@@ -135,6 +149,9 @@ void PairDurianFoam::read_restart_settings(FILE *fp)
   tau = values[7];
   removed_bubbles = values[8];
   removed_gas = values[9];
+  law.index = static_cast<int>(values[10]);
+  std::copy_n(values + SETTINGS - law.parameters.size(), law.parameters.size(),
+              law.parameters.begin());
 
   // LAMMPS reads what is there, be it a damaged file or that of another version of this style
 
@@ -147,6 +164,17 @@ void PairDurianFoam::read_restart_settings(FILE *fp)
         "mean surface {} (must be >= 0), headroom {} (must be >= 1), tau {} and {} removed bubbles "
         "(must be >= 0): it is damaged, or of another version of this style",
         mu0, rin, ain, headroom, tau, removed_bubbles);
+  bool law_known = false;
+  Foam::with_law(law, [&](const auto &chosen) {
+    law_known = true;
+    for (size_t n = 0; n < chosen.PARAMETERS.size(); n++)
+      if (!(law.parameters[n] > chosen.PARAMETERS[n].above) || !std::isfinite(law.parameters[n]))
+        law_known = false;
+  });
+  if (!law_known)
+    error->all(FLERR,
+               "Pair style durian/foam: the restart file has no law that this version knows: it is "
+               "damaged, or of another version of this style");
   if (rin_fixed && ain_fixed) tell_means("from the restart file");
 }
 

@@ -9,15 +9,6 @@
 
 #include "fix_foam_abm_kokkos.h"
 
-using namespace LAMMPS_NS;
-
-template <class DeviceType>
-FoamTotals FixFoamABMKokkos<DeviceType>::attempt(double step, bool first)
-{
-  return this->dim == 2 ? this->template attempt_in<2>(this->here, step, first)
-                        : this->template attempt_in<3>(this->here, step, first);
-}
-
 namespace LAMMPS_NS {
 template class FixFoamABMKokkos<LMPDeviceType>;
 #ifdef LMP_KOKKOS_GPU

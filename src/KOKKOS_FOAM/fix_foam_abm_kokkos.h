@@ -30,9 +30,6 @@ class FixFoamABMKokkos : public FixFoamIntegrateKokkos<FixFoamABM, DeviceType> {
       : FixFoamIntegrateKokkos<FixFoamABM, DeviceType>(lmp, narg, arg)
   {
   }
-
- protected:
-  FoamTotals attempt(double, bool) override;
 };
 
 }    // namespace LAMMPS_NS

@@ -123,6 +123,11 @@ class FixFoamIntegrateKokkos : public Style, public KokkosBase {
  protected:
   FoamKokkos<DeviceType> here;
 
+  FoamTotals attempt(double step, bool first) override
+  {
+    return Foam::with_dimension(
+        this->dim, [&]<int D>() { return this->template attempt_in<D>(here, step, first); });
+  }
   void keep_history() override { this->keep_history_in(here); }
   void take_rates(bool history) override { this->take_rates_in(here, history); }
   void redistribute(double factor) override { this->redistribute_in(here, factor); }

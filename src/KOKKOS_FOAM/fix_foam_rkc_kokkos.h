@@ -33,9 +33,6 @@ class FixFoamRKCKokkos : public FixFoamIntegrateKokkos<FixFoamRKC, DeviceType> {
 
     if (std::is_same_v<KK_FLOAT, float>) this->aside = 1.0e-2;
   }
-
- protected:
-  FoamTotals attempt(double, bool) override;
 };
 
 }    // namespace LAMMPS_NS

@@ -10,6 +10,7 @@
 #include "pair_durian_foam_kokkos.h"
 
 #include "foam_gas.h"
+#include "foam_laws.h"
 
 #include "comm.h"
 #include "domain.h"
@@ -383,21 +384,24 @@ template <class DeviceType> void PairDurianFoamKokkos<DeviceType>::gather_contac
 {
   take_list();
   free_surface_known = false;
-  const bool flat = domain->dimension == 2;
-  const bool done = Foam::for_each_gathered(
-      what, [&]<unsigned WHAT>() { flat ? gather_in<2, WHAT>() : gather_in<3, WHAT>(); });
+  bool done = false;
+  Foam::with_law(law, [&](const auto &chosen) {
+    done = Foam::for_each_gathered(what, [&]<unsigned WHAT>() {
+      Foam::with_dimension(domain->dimension, [&]<int D>() { gather_in<D, WHAT>(chosen); });
+    });
+  });
   if (!done) error->one(FLERR, "Pair style durian/foam: no loop gathers {}", what);
 }
 
 template <class DeviceType>
-template <int D, unsigned WHAT>
-void PairDurianFoamKokkos<DeviceType>::gather_in()
+template <int D, unsigned WHAT, class Law>
+void PairDurianFoamKokkos<DeviceType>::gather_in(const Law &chosen)
 {
   using B = typename FoamKokkos<DeviceType>::Bubbles;
   using Rows = FoamRows<DeviceType>;
   const int nlocal = atom->nlocal;
   const bool clear = fuse_force_clear_flag;
-  const Foam::Springs springs{sigma0_there.data(), atom->ntypes, rin};
+  const Foam::Coefficients coefficients{sigma0_there.data(), atom->ntypes, rin};
   const Foam::ContactSums sums = contact_sums(here);
 
   auto run = [&]<bool CHUNKS>() {
@@ -405,8 +409,8 @@ void PairDurianFoamKokkos<DeviceType>::gather_in()
     if constexpr (WHAT & Foam::FORCE) {
       if (evflag) {
         using Tally = KokkosTally<DeviceType>;
-        using Loop = Foam::ContactLoop<D, WHAT, !CHUNKS, B, Rows, Tally>;
-        const Loop loop{here.bubbles(), rows, springs, sums, !clear};
+        using Loop = Foam::ContactLoop<D, WHAT, !CHUNKS, Law, B, Rows, Tally>;
+        const Loop loop{here.bubbles(), rows, chosen, coefficients, sums, !clear};
         const Tally tally{nullptr, eflag_atom != 0, vflag_atom != 0,
                           k_eatom.template view<DeviceType>(), k_vatom.template view<DeviceType>()};
         const auto all = here.template reduce<EnergyVirial>(
@@ -417,8 +421,8 @@ void PairDurianFoamKokkos<DeviceType>::gather_in()
         return;
       }
     }
-    using Loop = Foam::ContactLoop<D, WHAT, !CHUNKS, B, Rows, Foam::NoTally>;
-    const Loop loop{here.bubbles(), rows, springs, sums, !clear};
+    using Loop = Foam::ContactLoop<D, WHAT, !CHUNKS, Law, B, Rows, Foam::NoTally>;
+    const Loop loop{here.bubbles(), rows, chosen, coefficients, sums, !clear};
     if constexpr ((WHAT & Foam::FORCE) && (WHAT & Foam::AREA)) {
       free_surface = here.sums(
           n, SummedContacts<D, WHAT, CHUNKS, Loop>{loop, chunk, nlocal, clear, liquid_law});

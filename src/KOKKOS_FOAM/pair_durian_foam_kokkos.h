@@ -85,7 +85,7 @@ template <class DeviceType> class PairDurianFoamKokkos : public PairDurianFoam, 
   void make_rows();
   void make_owners();
   FoamGhosts<DeviceType> ghosts() const;
-  template <int D, unsigned WHAT> void gather_in();
+  template <int D, unsigned WHAT, class Law> void gather_in(const Law &);
 };
 
 }    // namespace LAMMPS_NS

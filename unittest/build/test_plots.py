@@ -162,6 +162,16 @@ def test_stress_and_strain(tmp_path):
     assert not (tmp_path / "shear.png").exists()
 
 
+@pytest.mark.parametrize("text, said", [
+    ("strain,stress\n", "0 lines of numbers"), ("strain,stress\n0,1\n", "1 lines of numbers"),
+    ("strain,stress\n0,1\n0.1\n", "needs 2 numbers"), ("strain,stress\n0,1\n0.1,much\n", "needs 2 numbers")])
+def test_tables_of_stress_that_are_none(tmp_path, text, said):
+    for name in ("steady.csv", "quasistatic.csv"):
+        (tmp_path / name).write_text(text)
+    done = plot_command(tmp_path, "shear")
+    assert said in done.stderr and done.returncode != 0 and "Traceback" not in done.stderr
+
+
 # ------------------------------------------------------------------ exponents
 
 def test_exponent_of_a_power_law():
@@ -187,6 +197,12 @@ def test_range_of_an_exponent_that_depends_on_the_window():
 def test_no_exponent_without_points():
     series = {"tau": np.array([0.0, 1.0, 50.0]), "R": np.array([1.0, 1.1, 2.0])}
     assert "too few points" in plot.growth_lines(series)[0]
+
+
+def test_picture_of_a_table_without_any_slope(tmp_path):
+    series = {"tau": np.array([30.0, 31.0]), "R": np.array([1.0, 1.1]), "N": np.array([200.0, 190.0])}
+    plot.plot_growth(series, tmp_path / "growth.png", 2)
+    assert (tmp_path / "growth.png").exists()
 
 
 # ------------------------------------------------------------------ in.coarsen

@@ -109,9 +109,12 @@ INTEGRATOR = {"dt0": number(above=0), "dtmax": number(above=0), "variable": one_
               "norm": one_of("max", "rms"), "safety": share(), "growth": above_one(),
               "drift": one_of("keep", "remove")}
 
+LAW = Kind(r"\bspring\b or \bpower\b", ["spring", "power 2.5", "power 1.5"],
+           {**one_of("spring", "power").bad, "with a space": "'power '"})
+
 STYLES = [
     Style("pair", "durian/foam", "pair_style durian/foam", {"mu0": number(above=0)},
-          {"drag": one_of("static", "neighbor"), "rin": number(above=0),
+          {"law": LAW, "drag": one_of("static", "neighbor"), "rin": number(above=0),
            "headroom": number(at_least=1, below=["0", "0.999", "1e-5"])}),
     Style("coeff", "durian/foam", "pair_coeff",
           {"type I": types(1), "type J": types(1), "sigma0": number(at_least=0)},

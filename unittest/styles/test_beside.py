@@ -112,6 +112,8 @@ print "dt $(dt:%.17g)"
 """
     assert printed(lmp(text.format(""), directory=whole.directory), "dt") == [0.01]
     assert printed(lmp(text.format("timestep 0.02"), directory=whole.directory), "dt") == [0.02]
+    text = text.replace("run           20", "min_style fire\nminimize 0 0 20 40")    # steps by it at once
+    assert printed(lmp(text.format(""), directory=whole.directory), "dt") == [0.01]
 
 
 # ---- tau, K, <R_in> -----------------------------------------------------------------------------
@@ -154,6 +156,21 @@ def test_fix_modify(lmp):
     assert changed.thermo[0]["Atoms"][-1] <= 70
     result = lmp(foam("fix_modify gas tau 5.0\nrun 0"), files=data())
     assert result.thermo[0]["f_gas[1]"][0] == 5.0
+
+
+@pytest.mark.parametrize("before, words", [
+    ("1e-3 0.0", "kappa 1.0"), ("0.0 0.1", "K 1e-2"), ("1e-2 0.3 film no", "film yes"),
+    ("1e-2 0.0", "kappa 1.0 liquid lsw")])
+def test_fix_modify_without_set_up(lmp, before, words):
+    """A term that is switched on is there in a run without set-up, too: the same run as with one, but for
+    the evaluation that the set-up takes."""
+    def after(pre):
+        return lmp(foam(f"run 30\nfix_modify gas {words}\nrun 20 {pre}", gas=before), files=data())
+
+    plain, other = after("").thermo[-1], after("pre no").thermo[-1]
+    for name in ("Time", "PotEng", "f_gas[1]", "f_gas[3]", "f_gas[4]", "f_gas[6]"):
+        assert other[name][-1] == pytest.approx(plain[name][-1], rel=1e-12, abs=1e-14), name
+    assert other["f_gas[3]"][-1] != other["f_gas[3]"][0]
 
 
 @pytest.mark.parametrize("words, what", [
@@ -238,7 +255,7 @@ def test_no_exchange_at_all(lmp, gas, R, warned, dim, variable):
     assert len(warnings(result, "no gas is exchanged")) == warned
 
 
-NO_NUMBER = re.compile(r"no numbers has bubble (\d+), of radius (\S+) at (\S+) (\S+) \S+, on which")
+NO_NUMBER = re.compile(r"the place of bubble (\d+), of radius (\S+) and at (\S+) (\S+) \S+ when .* is no number")
 
 
 def test_bubble_of_a_bad_force_is_named(lmp):
