@@ -85,7 +85,10 @@ void ComputeFoamBubble::find_foam()
 void ComputeFoamBubble::gather()
 {
   find_foam();
-  int outdated = !pair->list || pair->list->inum != atom->nlocal, any;
+  const NeighList *list = pair->list;
+  while (list && list->listskip)
+    list = list->listskip;    // of pair_style hybrid: without other types
+  int outdated = !list || list->inum != atom->nlocal, any;
   MPI_Allreduce(&outdated, &any, 1, MPI_INT, MPI_MAX, world);
   if (any)
     error->all(FLERR,

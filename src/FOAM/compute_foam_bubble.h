@@ -59,10 +59,11 @@ class ComputeFoamBubble : public Compute {
   void look_in(Space &here, const Masks &mask, double *out)
   {
     using B = typename Space::Bubbles;
+    here.groupbit = pair->groupbit;
     const auto gas_law = gas ? gas->exchange<D>(here, atom->nlocal) : Foam::Exchange<D>();
-    const Foam::LookAt<D, B, Masks> body{
-        here.bubbles(), mask, groupbit, out, wanted, gas_law, pair->contact_sums(here)};
-    here.for_each(atom->nlocal, body);
+    const Foam::LookAt<D, B, Masks> body{here.bubbles(), mask,    groupbit | pair->groupbit, out,
+                                         wanted,         gas_law, pair->contact_sums(here)};
+    here.for_all(atom->nlocal, body);
   }
 };
 

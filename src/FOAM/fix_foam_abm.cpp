@@ -30,7 +30,7 @@ FixFoamABM::FixFoamABM(LAMMPS *lmp, int narg, char **arg) : FixFoamIntegrate(lmp
 
 FoamTotals FixFoamABM::attempt(double step, bool first)
 {
-  FoamHost here(lmp);
+  FoamHost here(lmp, groupbit);
   return Foam::with_dimension(dim, [&]<int D>() { return attempt_in<D>(here, step, first); });
 }
 

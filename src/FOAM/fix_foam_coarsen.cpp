@@ -29,9 +29,6 @@ FixFoamCoarsen::FixFoamCoarsen(LAMMPS *lmp, int narg, char **arg)
     : Fix(lmp, narg, arg), pair(nullptr), law(Foam::LiquidLaw::AREA), rmin(0.1), ain_given(0.0),
       nmin(0), rho(0.0), dead(false)
 {
-  if (igroup != 0)
-    error->all(FLERR, "Fix foam/coarsen needs group all, since gas exchange couples all bubbles");
-
   using Value = FoamInput::Value;
   FoamInput input(error, "Fix foam/coarsen", narg - 3, arg + 3);
   K = input.argument("K").number(FoamInput::AT_LEAST, 0.0);
@@ -167,6 +164,7 @@ std::string FixFoamCoarsen::end_reached() const
 /* ----------------------------------------------------------------------
    A removed bubble stays as a dead one of radius 0, without force or exchange, so that a
    removal does not force a list build; the next build, whoever asks for it, takes it out.
+   A particle that is no bubble is not dead, whatever its radius.
 ------------------------------------------------------------------------- */
 
 void FixFoamCoarsen::setup_pre_exchange()
@@ -194,17 +192,17 @@ void FixFoamCoarsen::take_out_dead()
   if (atom->map_style != Atom::MAP_NONE) atom->map_clear();
   int i = 0;
   while (i < atom->nlocal) {
-    if (atom->radius[i] > 0.0) {
+    if (atom->radius[i] > 0.0 || !(atom->mask[i] & groupbit)) {
       i++;
     } else {
       atom->avec->copy(atom->nlocal - 1, i, 1);
       atom->nlocal--;
     }
   }
-  count_living();
+  count_particles();
 }
 
-void FixFoamCoarsen::count_living()
+void FixFoamCoarsen::count_particles()
 {
   atom->nghost = 0;
   bigint nlocal = atom->nlocal;

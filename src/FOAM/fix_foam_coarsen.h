@@ -104,7 +104,7 @@ class FixFoamCoarsen : public Fix {
   FoamInput::Keywords keywords();    // of fix and fix_modify alike
   double mean_surface() const { return ain_given > 0.0 ? ain_given : pair->ain; }    // <A_in>
   virtual void take_out_dead();
-  virtual void count_living();
+  void count_particles();
 };
 
 }    // namespace LAMMPS_NS

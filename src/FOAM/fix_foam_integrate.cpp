@@ -30,18 +30,12 @@ using namespace LAMMPS_NS;
 using namespace FixConst;
 
 /* ----------------------------------------------------------------------
-   fix ID all STYLE tolerance keyword value ...
+   fix ID group-ID STYLE tolerance keyword value ...
 ------------------------------------------------------------------------- */
 
 FixFoamIntegrate::FixFoamIntegrate(LAMMPS *lmp, int narg, char **arg)
     : Fix(lmp, narg, arg), reduce(world), list(lmp), out(lmp), dim(domain->dimension)
 {
-  if (igroup != 0)
-    error->all(FLERR,
-               "Fix {} needs group all; with static drag, fix setforce 0 0 0 holds bubbles "
-               "in place",
-               style);
-
   time_integrate = 1;
   force_reneighbor = 1;
   next_reneighbor = -1;
@@ -316,37 +310,37 @@ void FixFoamIntegrate::remove_small()
 
 void FixFoamIntegrate::keep_history()
 {
-  FoamHost here(lmp);
+  FoamHost here(lmp, groupbit);
   keep_history_in(here);
 }
 
 void FixFoamIntegrate::take_rates(bool history)
 {
-  FoamHost here(lmp);
+  FoamHost here(lmp, groupbit);
   take_rates_in(here, history);
 }
 
 void FixFoamIntegrate::redistribute(double factor)
 {
-  FoamHost here(lmp);
+  FoamHost here(lmp, groupbit);
   redistribute_in(here, factor);
 }
 
 void FixFoamIntegrate::return_to_start()
 {
-  FoamHost here(lmp);
+  FoamHost here(lmp, groupbit);
   return_to_start_in(here);
 }
 
 void FixFoamIntegrate::take_listed()
 {
-  FoamHost here(lmp);
+  FoamHost here(lmp, groupbit);
   take_listed_in(here);
 }
 
 double FixFoamIntegrate::largest_radius()
 {
-  FoamHost here(lmp);
+  FoamHost here(lmp, groupbit);
   return largest_radius_in(here);
 }
 
@@ -411,7 +405,7 @@ void FixFoamIntegrate::post_neighbor()
 
   // other fixes may just have put bubbles in or taken them out
 
-  if (gas && gas->population.bubbles != atom->natoms) take_population();
+  if (gas && gas->population.bubbles != bubbles()) take_population();
 }
 
 // Bubbles that have outgrown the cutoffs need new ones.  A step that writes a restart file
@@ -444,7 +438,7 @@ void FixFoamIntegrate::end_of_step()
 
 void FixFoamIntegrate::post_run()
 {
-  bubbles_last = gas ? gas->population.bubbles : atom->natoms;    // without the dead
+  bubbles_last = gas ? gas->population.bubbles : bubbles();    // without the dead
   out.end_run();
   record = pair->record();
   set_timestep(dt_given);    // minimizers, for one, step by it

@@ -202,6 +202,7 @@ class FixFoamIntegrate : public Fix {
   virtual void return_to_start();
   virtual void take_listed();
   virtual double largest_radius();    // on this rank
+  virtual double count_bubbles();     // of this rank
   virtual void compute_forces(int eflag, int vflag);
 
   // set-up works on the host: bubbles there are up to date after the first, and on the device
@@ -209,6 +210,7 @@ class FixFoamIntegrate : public Fix {
 
   virtual void host_reads() {}
   virtual void host_wrote() {}
+  bool is_bubble(int i) const { return atom->mask[i] & groupbit; }    // there
 
   template <class Space> void keep_history_in(Space &);
   template <class Space> void take_rates_in(Space &, bool history);
@@ -216,6 +218,7 @@ class FixFoamIntegrate : public Fix {
   template <class Space> void return_to_start_in(Space &);
   template <class Space> void take_listed_in(Space &);
   template <class Space> double largest_radius_in(Space &);
+  template <class Space> double count_bubbles_in(Space &);
 
  private:
   bool ghosts_checked = false;    // their radii are communicated
@@ -225,6 +228,7 @@ class FixFoamIntegrate : public Fix {
   double time_then = 0.0;         // t when LAMMPS' fixes were initialised last
   bool deform_told = false;       // what its styles make of changing steps
   bool idle_told = false;         // that no gas is exchanged
+  bool others_told = false;       // that some particles with a radius are no bubbles
   FoamTotals totals;              // of a candidate, over all ranks
 
   std::map<tagint, std::array<double, 3>> places;    // of a triclinic box, before set-up
@@ -232,6 +236,7 @@ class FixFoamIntegrate : public Fix {
   void check_bubbles();
   void check_ghosts();
   void give_lags();
+  double bubbles();
   void check_companions();
   void check_deform(Fix *);
   std::string worst_bubble();
@@ -315,6 +320,11 @@ template <class Space> double FixFoamIntegrate::largest_radius_in(Space &here)
 {
   const Foam::LargestRadius<typename Space::Bubbles> body{here.bubbles()};
   return here.totals(atom->nlocal, body).max[Foam::LARGEST];
+}
+
+template <class Space> double FixFoamIntegrate::count_bubbles_in(Space &here)
+{
+  return here.totals(atom->nlocal, Foam::CountBubbles()).sum[Foam::BUBBLES];
 }
 
 }    // namespace LAMMPS_NS

@@ -15,6 +15,7 @@
 #include "comm.h"
 #include "error.h"
 #include "force.h"
+#include "group.h"
 #include "modify.h"
 #include "update.h"
 
@@ -50,6 +51,13 @@ void FixFoamIntegrate::check_companions()
   };
   elsewhere("pair style", "durian/foam", pair->kokkosable, pair->execution_space);
   if (gas) elsewhere("fix", gas->style, gas->kokkosable, gas->execution_space);
+
+  if (gas && gas->igroup != igroup)
+    error->all(
+        FLERR,
+        "Fix {} has group {} and fix {} group {}: the group says who is a bubble, and must be "
+        "the same",
+        style, group->names[igroup], gas->style, group->names[gas->igroup]);
 
   if (integrators > 1)
     error->all(FLERR, "Fix {} must be the only fix that integrates in time", style);
@@ -100,6 +108,7 @@ std::string FixFoamIntegrate::worst_bubble()
 {
   host_reads();
   auto size = [&](int i) {
+    if (!is_bubble(i)) return -1.0;
     double square = 0.0, all = atom->radius[i];
     for (int k = 0; k < 3; k++) {
       square += atom->f[i][k] * atom->f[i][k];

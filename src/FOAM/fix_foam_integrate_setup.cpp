@@ -17,6 +17,7 @@
 #include "domain.h"
 #include "error.h"
 #include "force.h"
+#include "group.h"
 #include "modify.h"
 #include "output.h"
 #include "update.h"
@@ -71,8 +72,14 @@ void FixFoamIntegrate::check_bubbles()
 {
   host_reads();
   FoamTotals mine;
+  enum { MEMBERS, OTHERS };    // OTHERS: with a radius
   for (int i = 0; i < atom->nlocal; i++) {
     const double R = atom->radius[i], *const x = atom->x[i];
+    if (!is_bubble(i)) {
+      if (R > 0.0) mine.sum[OTHERS] += 1.0;
+      continue;
+    }
+    mine.sum[MEMBERS] += 1.0;
     if (!(R > 0.0) || !std::isfinite(R)) mine.max[0] = MAX(mine.max[0], double(atom->tag[i]));
     if (!std::isfinite(x[0] + x[1] + x[2])) mine.max[1] = MAX(mine.max[1], double(atom->tag[i]));
   }
@@ -84,6 +91,15 @@ void FixFoamIntegrate::check_bubbles()
                style, bad.max[0]);
   if (bad.max[1] > 0.0)
     error->all(FLERR, "Fix {}: Non-numeric atom coords of bubble {:.0f}", style, bad.max[1]);
+  if (igroup != 0 && bad.sum[MEMBERS] == 0.0)
+    error->all(FLERR, "Fix {}: no particle is in group {}, so there is no bubble", style,
+               group->names[igroup]);
+  if (bad.sum[OTHERS] > 0.0 && !others_told && comm->me == 0)
+    utils::logmesg(lmp,
+                   "Fix {}: {:.0f} particles with a radius are not in group {}: bubbles feel their "
+                   "forces, but exchange no gas with them and do not follow them\n",
+                   style, bad.sum[OTHERS], group->names[igroup]);
+  others_told = true;
 
   if (pair->neighbor_drag && domain->deform_vremap && force->newton_pair && !pair->kokkosable)
     error->all(FLERR,
@@ -96,6 +112,7 @@ void FixFoamIntegrate::check_bubbles()
 
   double *const q = columns[Q];
   for (int i = 0; i < atom->nlocal; i++) {
+    if (!is_bubble(i)) continue;
     const double R = atom->radius[i];
     const double known =
         Foam::with_dimension(dim, [&]<int D>() { return Foam::radius_of<D>(variable, q[i]); });
@@ -120,7 +137,7 @@ void FixFoamIntegrate::give_lags()
   double *const *const v = atom->v;
   if (have_lags != 0.0)
     for (int i = 0; i < atom->nlocal; i++) {
-      bool same = true;
+      bool same = is_bubble(i);
       for (int k = 0; k < 3; k++) same = same && v[i][k] == lags[LASTX + k][i];
       if (same)
         for (int k = 0; k < 3; k++) v[i][k] = lags[LAGX + k][i];
@@ -159,20 +176,20 @@ void FixFoamIntegrate::setup(int)
   // Those of the source belong to the predicted state, within the tolerance of the present one;
   // its velocities with neighbor drag do not settle, and so tell nothing.
 
+  const double number = bubbles();
   const FoamTotals change =
       Foam::with_dimension(dim, [&]<int D>() { return change_of_rates<D>(); });
   constexpr double SAME = 1.0e-6;    // well above rounding, well below any change of interest
   double v_same = SAME * change.max[1], qdot_same = SAME * change.max[3];
   if (!evaluates_again()) {
     double tolerance = 10.0 * control.tolerance;
-    if (norm == Foam::Norm::RMS)
-      tolerance *= std::sqrt(double(dim + 1) * atom->natoms);    // of one bubble
+    if (norm == Foam::Norm::RMS) tolerance *= std::sqrt((dim + 1) * number);    // of one bubble
     v_same += pair->neighbor_drag ? INFINITY : tolerance * pair->rin / natural_time();
     qdot_same += std::sqrt(tolerance) * change.max[3];    // contact area ~ sqrt(overlap)
   }
   const double exchange =
       gas ? gas->K * std::pow(pair->rin, variable == Foam::Variable::RADIUS ? -1 : dim - 2) : 0.0;
-  if (grows() && change.max[3] <= 1.0e-12 * exchange && atom->natoms > 1 && !idle_told) {
+  if (grows() && change.max[3] <= 1.0e-12 * exchange && number > 1.0 && !idle_told) {
     idle_told = true;
     if (comm->me == 0)
       error->warning(
@@ -181,8 +198,7 @@ void FixFoamIntegrate::setup(int)
           "are equal, or no bubbles touch and there is no exchange through the liquid",
           style);
   }
-  if (change.max[0] > v_same || change.max[2] > qdot_same || bubbles_last != atom->natoms)
-    h_before = 0.0;
+  if (change.max[0] > v_same || change.max[2] > qdot_same || bubbles_last != number) h_before = 0.0;
 
   if (gas) gas->changed = false;
   if (evaluates_again() || h_before == 0.0) {
@@ -223,11 +239,12 @@ void FixFoamIntegrate::setup(int)
 template <int D> FoamTotals FixFoamIntegrate::change_of_rates()
 {
   host_reads();
-  FoamHost here(lmp);
+  FoamHost here(lmp, groupbit);
   const auto f = rates<D>(here);
   const bool last = lagged() && have_lags != 0.0;
   FoamTotals mine;
   for (int i = 0; i < atom->nlocal; i++) {
+    if (!is_bubble(i)) continue;
     for (int k = 0; k < D; k++) {
       const double now = f.velocity(i, k);
       const double then = last ? lags[LASTX + k][i] : atom->v[i][k];
@@ -262,6 +279,23 @@ void FixFoamIntegrate::check_ghosts()
   ghosts_checked = all.sum[1] > 0.0;    // else there were none to look at
 }
 
+double FixFoamIntegrate::count_bubbles()
+{
+  FoamHost here(lmp, groupbit);
+  return count_bubbles_in(here);
+}
+
+// on all ranks, while none is dead
+
+double FixFoamIntegrate::bubbles()
+{
+  if (groupbit == Foam::GROUP_ALL) return atom->natoms;
+  const double mine = count_bubbles();
+  double all;
+  MPI_Allreduce(&mine, &all, 1, MPI_DOUBLE, MPI_SUM, world);
+  return all;
+}
+
 void FixFoamIntegrate::take_population()
 {
   if (!gas) return;
@@ -270,6 +304,7 @@ void FixFoamIntegrate::take_population()
   FoamTotals mine;
   const double *const q = columns[Q];
   for (int i = 0; i < atom->nlocal; i++) {
+    if (!is_bubble(i)) continue;
     mine.sum[BUBBLES] += 1.0;
     mine.sum[RADII] += atom->radius[i];
     mine.sum[GAS] += with_dimension(dim, [&]<int D>() { return gas_content<D>(variable, q[i]); });

@@ -114,8 +114,8 @@ std::vector<double *> FixFoamIntegrate::progress()
 
 void FixFoamIntegrate::write_restart(FILE *fp)
 {
+  bubbles_last = bubbles();
   if (comm->me != 0) return;
-  bubbles_last = atom->natoms;
   if (pair) record = pair->record();
   std::vector<double> values;
   for (const double *one : progress()) values.push_back(*one);

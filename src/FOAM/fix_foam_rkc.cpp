@@ -32,7 +32,7 @@ FixFoamRKC::FixFoamRKC(LAMMPS *lmp, int narg, char **arg) : FixFoamIntegrate(lmp
 
 FoamTotals FixFoamRKC::attempt(double step, bool first)
 {
-  FoamHost here(lmp);
+  FoamHost here(lmp, groupbit);
   return Foam::with_dimension(dim, [&]<int D>() { return attempt_in<D>(here, step, first); });
 }
 

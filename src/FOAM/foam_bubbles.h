@@ -18,7 +18,7 @@
 // bubble at a time, on the host or on a device.  It holds plain pointers to columns, see foam_columns.h,
 // and B, the way in which LAMMPS stores the bubbles themselves: HostBubbles here, FoamKokkosBubbles in
 // foam_kokkos.h.  Where functors run, a "space" tells (FoamHost, FoamKokkos): it hands out bubbles and
-// columns, loops and sums.
+// columns, loops and sums.  Which particles are bubbles is the space's matter alone.
 
 namespace Foam {
 
@@ -32,6 +32,16 @@ template <class T> struct Rows {    // [n][3]
 template <class T> struct Values {    // [n]
   T *first;
   FOAM_FUNCTION T &operator()(int i) const { return first[i]; }
+};
+
+// Who is a bubble: the members of a group of LAMMPS.  Usually all particles are, and then no mask is read.
+
+constexpr int GROUP_ALL = 1;    // the bit of group all
+
+struct Members {
+  const int *mask = nullptr;    // none: all particles
+  int groupbit = GROUP_ALL;
+  FOAM_FUNCTION bool operator()(int i) const { return !mask || (mask[i] & groupbit); }
 };
 
 struct HostBubbles {
@@ -57,13 +67,15 @@ enum Gather : unsigned {
   TO_LOOK_AT = CONTACTS | FILM | AREA | ENERGY
 };
 
-// Sums over the contacts of each bubble, as columns
+// Sums over the contacts of each bubble, as columns.  Contacts are those with other bubbles: a particle
+// that is none has no gas to exchange and leads no bubble along, only its force and energy count.
 
 struct ContactSums {
   double *contacts, *vsum[3];
   double *area;                 // sum of A_ij
   double *film;                 // sum of A_ij (1/R_j - 1/R_i)
   double *espring, *edurian;    // half of the springs' energies; energy of [L20]
+  Members members;              // who is a bubble
 
   template <unsigned WHAT> FOAM_FUNCTION void clear(int i) const
   {

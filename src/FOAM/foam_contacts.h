@@ -98,6 +98,7 @@ struct ContactLoop {
         coefficients.ntypes == 1 ? nullptr
                                  : coefficients.sigma0 + b.type(i) * (coefficients.ntypes + 1);
     const double sigma0 = coefficients.sigma0[coefficients.ntypes + 2];    // of types 1 and 1
+    [[maybe_unused]] const bool member_i = s.members(i);
     double fi[3] = {}, vsum_i[3] = {};
     double contacts_i = 0.0, area_i = 0.0, film_i = 0.0, espring_i = 0.0, edurian_i = 0.0;
 
@@ -129,10 +130,15 @@ struct ContactLoop {
           tally.pair(i, j, both, force_law.energy(sigma * Rin, overlap, Rsum), F_over_r, del);
         for (int k = 0; k < D; k++) fi[k] += F_xyz[k];
       }
-      if constexpr (WHAT & CONTACTS) contacts_i += 1.0;
+      [[maybe_unused]] bool bubbles = false;
+      if constexpr (WHAT & (CONTACTS | VSUM | FILM | AREA)) bubbles = member_i && s.members(j);
+      if constexpr (WHAT & CONTACTS)
+        if (bubbles) contacts_i += 1.0;
       if constexpr (WHAT & VSUM)
-        for (int k = 0; k < D; k++) vsum_i[k] += b.v(j, k);
-      if constexpr (WHAT & (FILM | AREA)) A = contact_area<D>(r, Ri, Rj);
+        if (bubbles)
+          for (int k = 0; k < D; k++) vsum_i[k] += b.v(j, k);
+      if constexpr (WHAT & (FILM | AREA))
+        if (bubbles) A = contact_area<D>(r, Ri, Rj);
       if constexpr (WHAT & AREA) area_i += A;
       if constexpr (WHAT & FILM) {
         exchange = film_exchange(A, Ri, Rj);
@@ -148,9 +154,11 @@ struct ContactLoop {
       if (!both) return;
       if constexpr (WHAT & FORCE)
         for (int k = 0; k < D; k++) b.f(j, k) -= F_xyz[k];
-      if constexpr (WHAT & CONTACTS) s.contacts[j] += 1.0;
+      if constexpr (WHAT & CONTACTS)
+        if (bubbles) s.contacts[j] += 1.0;
       if constexpr (WHAT & VSUM)
-        for (int k = 0; k < D; k++) s.vsum[k][j] += b.v(i, k);
+        if (bubbles)
+          for (int k = 0; k < D; k++) s.vsum[k][j] += b.v(i, k);
       if constexpr (WHAT & FILM) s.film[j] -= exchange;
       if constexpr (WHAT & AREA) s.area[j] += A;
       if constexpr (WHAT & ENERGY) {

@@ -28,8 +28,8 @@ template <int D, class B, class Masks> struct LookAt {
   static constexpr const char *NAME = "foam: look at bubbles";
   B b;
   Masks mask;
-  int groupbit;
-  double *out;    // [n][wanted.count]
+  int groupbits;    // of the compute, and of the bubbles
+  double *out;      // [n][wanted.count]
   Quantities wanted;
   Exchange<D> gas;
   ContactSums sums;
@@ -37,7 +37,7 @@ template <int D, class B, class Masks> struct LookAt {
   FOAM_FUNCTION void operator()(int i) const
   {
     const double R = b.radius(i);
-    const bool counts = mask(i) & groupbit;
+    const bool counts = (mask(i) & groupbits) == groupbits;
     const typename Exchange<D>::Split V = gas(i, R);
     for (int c = 0; c < wanted.count; c++)
       out[static_cast<size_t>(i) * wanted.count + c] =

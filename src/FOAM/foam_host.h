@@ -18,12 +18,15 @@
 
 namespace LAMMPS_NS {
 
-// The space in which the base styles run: bubbles and columns on the host, one thread
+// The space in which the base styles run: bubbles and columns on the host, one thread.  Loops and sums are
+// over the particles up to n that are bubbles; for_all() is over all of them.
 
 class FoamHost : protected Pointers {
  public:
   using Bubbles = Foam::HostBubbles;
-  explicit FoamHost(LAMMPS *lmp) : Pointers(lmp) {}
+  explicit FoamHost(LAMMPS *lmp, int groupbit = Foam::GROUP_ALL) : Pointers(lmp), groupbit(groupbit)
+  {
+  }
 
   Bubbles bubbles() const
   {
@@ -32,28 +35,44 @@ class FoamHost : protected Pointers {
     };
     return {rows(atom->x), rows(atom->v), rows(atom->f), {atom->radius}, {atom->type}, {atom->tag}};
   }
+  Foam::Members members(int group) const
+  {
+    return group == Foam::GROUP_ALL ? Foam::Members() : Foam::Members{atom->mask, group};
+  }
   static double *column(FoamColumns &columns, int c)
   {
     return columns.in_use() ? columns[c] : nullptr;
   }
 
-  template <class Body> void for_each(int n, const Body &body) const
+  template <class Body> void for_all(int n, const Body &body) const
   {
     for (int i = 0; i < n; i++) body(i);
   }
+  template <class Body> void for_each(int n, const Body &body) const { over_bubbles(n, body); }
   template <class Body> FoamTotals totals(int n, const Body &body) const    // of this rank
   {
     FoamTotals mine;
-    for (int i = 0; i < n; i++) body(i, mine);
+    over_bubbles(n, [&](int i) { body(i, mine); });
     return mine;
   }
   template <class Body> Foam::Sums sums(int n, const Body &body) const    // of all ranks
   {
     Foam::SumsOfOne mine;
-    for (int i = 0; i < n; i++) body(i, mine);
+    over_bubbles(n, [&](int i) { body(i, mine); });
     Foam::Sums all;
     MPI_Allreduce(mine.sum, all.known, 4, MPI_DOUBLE, MPI_SUM, world);
     return all;
+  }
+
+  int groupbit;    // of the bubbles
+
+ private:
+  template <class Each> void over_bubbles(int n, const Each &each) const
+  {
+    if (groupbit == Foam::GROUP_ALL) return for_all(n, each);
+    const Foam::Members member = members(groupbit);
+    for (int i = 0; i < n; i++)
+      if (member(i)) each(i);
   }
 };
 

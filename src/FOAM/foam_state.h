@@ -228,6 +228,11 @@ template <class B> struct LargestRadius {
   }
 };
 
+struct CountBubbles {
+  static constexpr const char *NAME = "foam: count bubbles";
+  FOAM_FUNCTION void operator()(int, FoamTotals &all) const { all.sum[BUBBLES] += 1.0; }
+};
+
 // f_n becomes f_{n-1}, and f_{n+1}, if known, f_n
 
 template <int D, class B> FOAM_FUNCTION void keep_history(const State<B> &s, int i)

@@ -214,18 +214,24 @@ void PairDurianFoam::init_style()
 
   if (neighbor_drag) comm->ghost_velocity = 1;
 
+  groupbit = Foam::GROUP_ALL;    // see FixFoamIntegrate::check_companions()
+  for (auto &ifix : modify->get_fix_list())
+    if (utils::strmatch(ifix->style, "^foam/")) groupbit = ifix->groupbit;
+
   // <R_in> and <A_in> are those of the first run; commands that initialise before it
-  // see preliminary ones.  The largest radius sets all cutoffs, with head-room to grow.
+  // see preliminary ones.  The largest radius sets all cutoffs, with head-room to grow; that of a
+  // particle that is no bubble, too.
 
   const double *const radius = atom->radius;
   double mine[3] = {0.0, 0.0, 0.0}, all[3], largest = 0.0;
   for (int i = 0; i < atom->nlocal; i++)
     if (radius[i] > 0.0) {
+      largest = MAX(largest, radius[i]);
+      if (!(atom->mask[i] & groupbit)) continue;
       mine[0] += 1.0;
       mine[1] += radius[i];
       mine[2] += Foam::with_dimension(domain->dimension,
                                       [&]<int D>() { return Foam::surface<D>(radius[i]); });
-      largest = MAX(largest, radius[i]);
     }
   MPI_Allreduce(mine, all, 3, MPI_DOUBLE, MPI_SUM, world);
   if (!rin_fixed) rin = all[0] > 0.0 ? all[1] / all[0] : 0.0;

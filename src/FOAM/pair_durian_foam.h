@@ -62,7 +62,8 @@ class PairDurianFoam : public Pair {
   void go_on_from(const Record &);    // for a pair style that replaces another
   double tau = 0.0, removed_bubbles = 0.0, removed_gas = 0.0;    // counted by fix foam/coarsen
 
-  double mu0;    // drag coefficient
+  int groupbit = Foam::GROUP_ALL;    // of the bubbles: that of the fixes of the foam
+  double mu0;                        // drag coefficient
   double rin, ain;
   bool neighbor_drag;     // drag relative to neighbors' mean velocity or to a liquid at rest
   unsigned gas_wanted;    // set by the integrator: Foam::FILM, AREA to gather in each compute()
@@ -93,7 +94,8 @@ class PairDurianFoam : public Pair {
             here.column(area, 0),
             here.column(film, 0),
             here.column(energies, ESPRING),
-            here.column(energies, EDURIAN)};
+            here.column(energies, EDURIAN),
+            here.members(groupbit)};
   }
 
  protected:

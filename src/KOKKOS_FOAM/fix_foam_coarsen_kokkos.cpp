@@ -55,7 +55,7 @@ template <class DeviceType> void FixFoamCoarsenKokkos<DeviceType>::take_out_dead
   if (all_on_device()) {
     compact();
     if (atom->map_style != Atom::MAP_NONE) atom->map_clear();
-    count_living();
+    count_particles();
   } else {
     atomKK->sync(Host, ALL_MASK);
     const int auto_sync = lmp->kokkos->auto_sync;
@@ -72,6 +72,8 @@ template <class DeviceType> struct Listing {
   using Numbers = typename ArrayTypes<DeviceType>::t_int_1d;
   using value_type = int;
   decltype(FoamKokkos<DeviceType>::Bubbles::radius) radius;
+  Foam::Members member;
+  KOKKOS_INLINE_FUNCTION bool is_dead(int i) const { return !(radius(i) > 0.0) && member(i); }
 };
 
 // the dead, in order
@@ -80,13 +82,13 @@ template <class DeviceType> struct ListDead : Listing<DeviceType> {
   typename Listing<DeviceType>::Numbers dead;
   KOKKOS_INLINE_FUNCTION void operator()(int i, int &count, bool final) const
   {
-    if (this->radius(i) > 0.0) return;
+    if (!this->is_dead(i)) return;
     if (final) dead(count) = i;
     count++;
   }
 };
 
-// the living behind the new end, the last one first: as many as there are dead before it
+// the others behind the new end, the last one first: as many as there are dead before it
 
 template <class DeviceType> struct ListFillers : Listing<DeviceType> {
   typename Listing<DeviceType>::Numbers fill;
@@ -94,7 +96,7 @@ template <class DeviceType> struct ListFillers : Listing<DeviceType> {
   KOKKOS_INLINE_FUNCTION void operator()(int n, int &count, bool final) const
   {
     const int i = last - n;
-    if (!(this->radius(i) > 0.0)) return;
+    if (this->is_dead(i)) return;
     if (final) fill(count) = i;
     count++;
   }
@@ -110,18 +112,18 @@ template <class DeviceType> void FixFoamCoarsenKokkos<DeviceType>::compact()
     k_dead = DAT::tdual_int_1d("foam/coarsen:dead", atom->nmax);
     k_fill = DAT::tdual_int_1d("foam/coarsen:fill", atom->nmax);
   }
-  const auto radius = here.bubbles().radius;
+  const Listing<DeviceType> all{here.bubbles().radius, here.members(groupbit)};
   const auto dead = k_dead.view<DeviceType>();
   const auto fill = k_fill.view<DeviceType>();
   using Range = Kokkos::RangePolicy<DeviceType>;
 
   int ndead = 0, nfill = 0;
-  Kokkos::parallel_scan("foam: list dead", Range(0, nlocal), ListDead<DeviceType>{{radius}, dead},
+  Kokkos::parallel_scan("foam: list dead", Range(0, nlocal), ListDead<DeviceType>{all, dead},
                         ndead);
   if (ndead == 0) return;
   Kokkos::deep_copy(DeviceType(), fill, -1);
   Kokkos::parallel_scan("foam: list fillers", Range(0, ndead),
-                        ListFillers<DeviceType>{{radius}, fill, nlocal - 1}, nfill);
+                        ListFillers<DeviceType>{all, fill, nlocal - 1}, nfill);
   k_dead.modify<DeviceType>();
   k_fill.modify<DeviceType>();
 

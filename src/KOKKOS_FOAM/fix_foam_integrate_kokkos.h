@@ -86,6 +86,7 @@ class FixFoamIntegrateKokkos : public Style, public KokkosBase {
     this->exchange_comm_device = this->sort_device = std::is_same_v<DeviceType, LMPDeviceType>;
     this->execution_space = FoamKokkos<DeviceType>::SPACE;
     this->datamask_read = this->datamask_modify = EMPTY_MASK;    // the loops see to it
+    here.groupbit = this->groupbit;
     here.keep(this->all_columns);
     if (std::is_same_v<KK_FLOAT, float>) {
       this->low.use(lmp->atom->nmax);
@@ -138,6 +139,7 @@ class FixFoamIntegrateKokkos : public Style, public KokkosBase {
     pair_there()->take_list();
   }
   double largest_radius() override { return this->largest_radius_in(here); }
+  double count_bubbles() override { return this->count_bubbles_in(here); }
 
   void host_reads() override { this->atomKK->sync(Host, ALL_MASK); }
   void host_wrote() override
@@ -217,8 +219,8 @@ class FixFoamIntegrateKokkos : public Style, public KokkosBase {
   void clear_forces()
   {
     this->atomKK->k_f.clear_sync_state();
-    here.for_each(this->atom->nlocal + (this->force->newton ? this->atom->nghost : 0),
-                  FoamClearForces<DeviceType>{this->atomKK->k_f.template view<DeviceType>()});
+    here.for_all(this->atom->nlocal + (this->force->newton ? this->atom->nghost : 0),
+                 FoamClearForces<DeviceType>{this->atomKK->k_f.template view<DeviceType>()});
     this->atomKK->modified(FoamKokkos<DeviceType>::SPACE, F_MASK);
   }
 };

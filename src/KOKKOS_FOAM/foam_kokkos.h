@@ -111,6 +111,25 @@ template <class Value, class Space> class FoamJoin {
   result_view_type result;
 };
 
+// A functor for bubbles alone
+
+template <class Body> struct FoamEachBubble {
+  Body body;
+  Foam::Members member;
+  KOKKOS_INLINE_FUNCTION void operator()(int i) const
+  {
+    if (member(i)) body(i);
+  }
+};
+template <class Body, class Value> struct FoamReduceBubbles {
+  Body body;
+  Foam::Members member;
+  KOKKOS_INLINE_FUNCTION void operator()(int i, Value &value) const
+  {
+    if (member(i)) body(i, value);
+  }
+};
+
 // The space in which KOKKOS styles run: see FoamHost
 
 template <class DeviceType> class FoamKokkos : protected Pointers {
@@ -152,6 +171,12 @@ template <class DeviceType> class FoamKokkos : protected Pointers {
       return {x, v, f, radius, type, tag, {low_at(0), low_at(1), low_at(2)}};
     }
   }
+  Foam::Members members(int group) const
+  {
+    if (group == Foam::GROUP_ALL) return {};
+    atomKK->sync(SPACE, MASK_MASK);
+    return {atomKK->k_mask.view<DeviceType>().data(), group};
+  }
   static double *column(FoamColumns &columns, int c) { return columns.on_device(c); }
   static void keep(const FoamColumnList &all)
   {
@@ -163,9 +188,14 @@ template <class DeviceType> class FoamKokkos : protected Pointers {
 #endif
   }
 
-  template <class Body> void for_each(int n, const Body &body) const
+  template <class Body> void for_all(int n, const Body &body) const
   {
     Kokkos::parallel_for(Body::NAME, Kokkos::RangePolicy<DeviceType>(0, n), body);
+  }
+  template <class Body> void for_each(int n, const Body &body) const
+  {
+    Kokkos::parallel_for(Body::NAME, Kokkos::RangePolicy<DeviceType>(0, n),
+                         FoamEachBubble<Body>{body, members(groupbit)});
   }
 
   // the host waits for these
@@ -173,7 +203,8 @@ template <class DeviceType> class FoamKokkos : protected Pointers {
   template <class Value, class Body> Value reduce(int n, const Body &body) const
   {
     Value mine;
-    Kokkos::parallel_reduce(Body::NAME, Kokkos::RangePolicy<DeviceType>(0, n), body,
+    Kokkos::parallel_reduce(Body::NAME, Kokkos::RangePolicy<DeviceType>(0, n),
+                            FoamReduceBubbles<Body, Value>{body, members(groupbit)},
                             FoamJoin<Value, Kokkos::HostSpace>(&mine));
     return mine;
   }
@@ -194,7 +225,8 @@ template <class DeviceType> class FoamKokkos : protected Pointers {
       MPI_Allreduce(mine.sum, all.known, 4, MPI_DOUBLE, MPI_SUM, world);
     } else {
       Foam::SumsOfOne *const there = sums_there.data() + Body::SLOT;
-      Kokkos::parallel_reduce(Body::NAME, Kokkos::RangePolicy<DeviceType>(0, n), body,
+      Kokkos::parallel_reduce(Body::NAME, Kokkos::RangePolicy<DeviceType>(0, n),
+                              FoamReduceBubbles<Body, Foam::SumsOfOne>{body, members(groupbit)},
                               FoamJoin<Foam::SumsOfOne, typename DeviceType::memory_space>(there));
       all.elsewhere = there->sum;
     }
@@ -208,7 +240,8 @@ template <class DeviceType> class FoamKokkos : protected Pointers {
     Kokkos::deep_copy(Here(sum), There(elsewhere));
   }
 
-  FoamColumns *low = nullptr;    // see FoamKokkosBubbles; of an integrator
+  FoamColumns *low = nullptr;        // see FoamKokkosBubbles; of an integrator
+  int groupbit = Foam::GROUP_ALL;    // of the bubbles
 
  private:
   uint64_t written;

@@ -46,6 +46,7 @@ template <class DeviceType> PairDurianFoamKokkos<DeviceType>::~PairDurianFoamKok
 
 template <class DeviceType> void PairDurianFoamKokkos<DeviceType>::init_style()
 {
+  atomKK->sync(Host, RADIUS_MASK | MASK_MASK);    // refresh() may call this in a run
   PairDurianFoam::init_style();
   auto *request = neighbor->find_request(this);
   request->set_kokkos_host(std::is_same_v<DeviceType, LMPHostType> &&
@@ -357,7 +358,8 @@ template <int D, unsigned WHAT, bool CHUNKS, class Loop> struct SummedContacts {
     Contacts<WHAT, CHUNKS, Loop>{loop, chunk, nlocal, clear}(n);
     const int begin = n * chunk, end = begin + chunk < nlocal ? begin + chunk : nlocal;
     for (int i = begin; i < end; i++)
-      Foam::add_free_surface<D>(law, loop.b.radius(i), loop.sums.area[i], all);
+      if (loop.sums.members(i))
+        Foam::add_free_surface<D>(law, loop.b.radius(i), loop.sums.area[i], all);
   }
 };
 

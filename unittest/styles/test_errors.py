@@ -120,8 +120,9 @@ def test_arguments(lmp, which, command, style, words):
 
 MISFITS = {
     "coarsen in a group":
-        (foam(gas="group g id 1\nfix gas g foam/coarsen 1e-3 0.1"), COARSEN, "group all"),
-    "abm in a group": (foam(step="group g id 1\nfix step g foam/abm 1e-3"), ABM, "group all"),
+        (foam(gas="group g id 1\nfix gas g foam/coarsen 1e-3 0.1"), COARSEN, "group g", ABM, "group all"),
+    "abm in a group":
+        (foam(step="group g id 1\nfix step g foam/abm 1e-3"), ABM, "group g", COARSEN, "group all"),
     "no integrator": (foam(step=""), COARSEN, ABM),
     "another integrator": (foam(step="fix step all nve"), COARSEN, ABM),
     "two integrators": (foam("fix two all nve"), ABM, "only fix that integrates"),
