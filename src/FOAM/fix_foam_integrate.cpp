@@ -137,8 +137,11 @@ void FixFoamIntegrate::init()
                style);
 
   gas = nullptr;
-  for (auto &ifix : modify->get_fix_list())
+  followers.clear();
+  for (auto &ifix : modify->get_fix_list()) {
     if (auto *found = dynamic_cast<FixFoamCoarsen *>(ifix)) gas = found;
+    if (auto *found = dynamic_cast<FoamFollower *>(ifix)) followers.push_back(found);
+  }
   check_companions();
   time_then = time;
   if (record.rin > 0.0) pair->go_on_from(record);
@@ -374,6 +377,7 @@ void FixFoamIntegrate::evaluate(double later)
   update->atimestep = update->ntimestep;
   compute_forces(0, 0);
   evaluations++;
+  for (FoamFollower *one : followers) one->attempted(later);
 }
 
 /* ----------------------------------------------------------------------
@@ -382,6 +386,7 @@ void FixFoamIntegrate::evaluate(double later)
 
 void FixFoamIntegrate::final_integrate()
 {
+  for (FoamFollower *one : followers) one->accepted(h_last, out.due(this));
   if (!evaluates_again()) return;
   evaluations++;
   take_rates(has_history() && !history_at_accept());
@@ -470,11 +475,6 @@ double FixFoamIntegrate::largest_step() const
   else if (grows())
     largest = Foam::time_of_scaled(gas->K, 1.0, pair->rin);
   return MIN(largest, stable_step());
-}
-
-double FixFoamIntegrate::stable_step() const
-{
-  return INFINITY;
 }
 
 double FixFoamIntegrate::compute_vector(int n)

@@ -12,6 +12,7 @@
 
 #include "fix.h"
 #include "fix_foam_coarsen.h"
+#include "foam_history.h"
 #include "foam_host.h"
 #include "foam_input.h"
 #include "foam_list_guard.h"
@@ -19,6 +20,7 @@
 #include "foam_state.h"
 
 #include <array>
+#include <cmath>
 #include <map>
 #include <string>
 #include <vector>
@@ -73,6 +75,7 @@ class FixFoamIntegrate : public Fix {
  protected:
   PairDurianFoam *pair = nullptr;
   FixFoamCoarsen *gas = nullptr;    // null: radii stay as they are
+  std::vector<FoamFollower *> followers;
   FoamReduce reduce;
   FoamListGuard list;
   FoamOutput out;
@@ -142,7 +145,7 @@ class FixFoamIntegrate : public Fix {
   virtual bool evaluates_again() const { return true; }        // or has the next rates in work
   virtual bool has_history() const { return true; }            // needs f_{n-1}
   virtual bool works() const { return false; }                 // uses work
-  virtual double stable_step() const;                          // no step may be longer
+  virtual double stable_step() const { return INFINITY; }      // no step may be longer
   virtual bool suffers_from_drift() const { return false; }    // so it is removed unless kept
 
   // ---- what a scheme uses

@@ -14,6 +14,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -92,6 +93,19 @@ class FoamColumns {
     if (nmax <= length) return;
     storage->resize(ncolumns, nmax);
     length = nmax;
+  }
+
+  void widen(int n)    // to more columns: contents are kept, new numbers are 0
+  {
+    if (n <= ncolumns) return;
+    if (in_use()) storage->resize(n, length);
+    ncolumns = n;
+  }
+  void swap(FoamColumns &other)    // numbers, not names
+  {
+    storage.swap(other.storage);
+    std::swap(ncolumns, other.ncolumns);
+    std::swap(length, other.length);
   }
 
   int active() const { return in_use() ? ncolumns : 0; }

@@ -8,6 +8,7 @@
 #include "compute_foam_bubble.h"
 #include "fix_foam_abm.h"
 #include "fix_foam_coarsen.h"
+#include "fix_foam_contacts.h"
 #include "fix_foam_rkc.h"
 #include "pair_durian_foam.h"
 
@@ -15,6 +16,7 @@
 #include "compute_foam_bubble_kokkos.h"
 #include "fix_foam_abm_kokkos.h"
 #include "fix_foam_coarsen_kokkos.h"
+#include "fix_foam_contacts_kokkos.h"
 #include "fix_foam_rkc_kokkos.h"
 #include "pair_durian_foam_kokkos.h"
 #endif
@@ -104,11 +106,13 @@ void lammpsplugin_init(void *lmp, void *handle, void *regfunc)
     brought("compute", name);
   };
   const char *const coarsen = "fix foam/coarsen: gas exchange between bubbles";
+  const char *const ages = "fix foam/contacts: how long bubbles have been in contact";
   const char *const abm = "fix foam/abm: adaptive Adams-Bashforth-Moulton steps";
   const char *const rkc = "fix foam/rkc: adaptive stabilised Runge-Kutta-Chebyshev steps";
 
   pair.operator()<PairDurianFoam>("durian/foam");
   fix.operator()<FixFoamCoarsen>("foam/coarsen", coarsen);
+  fix.operator()<FixFoamContacts>("foam/contacts", ages);
   fix.operator()<FixFoamABM>("foam/abm", abm);
   fix.operator()<FixFoamRKC>("foam/rkc", rkc);
   compute.operator()<ComputeFoamBubble>("foam/bubble");
@@ -119,18 +123,21 @@ void lammpsplugin_init(void *lmp, void *handle, void *regfunc)
   };
   pair.operator()<PairDurianFoamKokkos<LMPDeviceType>>("durian/foam/kk");
   fix.operator()<FixFoamCoarsenKokkos<LMPDeviceType>>("foam/coarsen/kk", coarsen);
+  fix.operator()<FixFoamContactsKokkos<LMPDeviceType>>("foam/contacts/kk", ages);
   fix.operator()<FixFoamABMKokkos<LMPDeviceType>>("foam/abm/kk", abm);
   fix.operator()<FixFoamRKCKokkos<LMPDeviceType>>("foam/rkc/kk", rkc);
   compute.operator()<ComputeFoamBubbleKokkos<LMPDeviceType>>("foam/bubble/kk");
 
   pair.operator()<PairDurianFoamKokkos<LMPDeviceType>>("durian/foam/kk/device");
   fix.operator()<FixFoamCoarsenKokkos<LMPDeviceType>>("foam/coarsen/kk/device", coarsen);
+  fix.operator()<FixFoamContactsKokkos<LMPDeviceType>>("foam/contacts/kk/device", ages);
   fix.operator()<FixFoamABMKokkos<LMPDeviceType>>("foam/abm/kk/device", abm);
   fix.operator()<FixFoamRKCKokkos<LMPDeviceType>>("foam/rkc/kk/device", rkc);
   compute.operator()<ComputeFoamBubbleKokkos<LMPDeviceType>>("foam/bubble/kk/device");
 
   pair.operator()<PairDurianFoamKokkos<LMPHostType>>("durian/foam/kk/host");
   fix.operator()<FixFoamCoarsenKokkos<LMPHostType>>("foam/coarsen/kk/host", coarsen);
+  fix.operator()<FixFoamContactsKokkos<LMPHostType>>("foam/contacts/kk/host", ages);
   fix.operator()<FixFoamABMKokkos<LMPHostType>>("foam/abm/kk/host", abm);
   fix.operator()<FixFoamRKCKokkos<LMPHostType>>("foam/rkc/kk/host", rkc);
   compute.operator()<ComputeFoamBubbleKokkos<LMPHostType>>("foam/bubble/kk/host");

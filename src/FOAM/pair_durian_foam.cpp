@@ -10,6 +10,7 @@
 #include "pair_durian_foam.h"
 
 #include "foam_input.h"
+#include "foam_half_list.h"
 #include "foam_host.h"
 #include "foam_laws.h"
 
@@ -94,37 +95,6 @@ void PairDurianFoam::gather(unsigned what)
 
 // here over LAMMPS' half list, each pair once: ghosts collect their part, and send it home
 
-namespace {
-
-template <bool NEWTON> struct HalfList {
-  const int *ilist, *numneigh;
-  const int *const *firstneigh;
-  int nlocal;
-
-  struct Row {
-    int i, size;
-    const int *partners;
-    int nlocal;
-    template <class Visit> void for_each(const Visit &visit) const
-    {
-      for (int m = 0; m < size; m++) {
-        const int j = partners[m] & NEIGHMASK;
-        if constexpr (NEWTON)
-          visit(j, std::true_type());
-        else
-          visit(j, j < nlocal);
-      }
-    }
-  };
-  Row row(int n) const
-  {
-    const int i = ilist[n];
-    return {i, numneigh[i], firstneigh[i], nlocal};
-  }
-};
-
-}    // namespace
-
 void PairDurianFoam::gather_contacts(unsigned what)
 {
   bool done = false;
@@ -159,7 +129,7 @@ template <int D, unsigned WHAT, class Law> void PairDurianFoam::gather_in(const 
   for (int i = 0; i < nall; i++) sums.clear<WHAT>(i);
 
   auto loop = [&]<bool NEWTON, class T>(T tally) {
-    using List = HalfList<NEWTON>;
+    using List = FoamHalfList<NEWTON>;
     const List half{list->ilist, list->numneigh, list->firstneigh, nlocal};
     const Foam::ContactLoop<D, WHAT, false, Law, Foam::HostBubbles, List, T> body{
         here.bubbles(), half, chosen, coefficients, sums, true};

@@ -54,6 +54,11 @@ template <class DeviceType> class PairDurianFoamKokkos : public PairDurianFoam, 
   enum class Ghosts { RADII, EVERYTHING };
   bool refresh_ghosts(Ghosts);
 
+  // of the list taken last; a chunk of rows is the work of one thread
+
+  const FoamRows<DeviceType> &contact_rows() const { return rows; }
+  int rows_at_once() const { return chunk; }
+
   void take_list();    // LAMMPS has built it, and ghosts are where their owners are
 
   using PairDurianFoam::gather;

@@ -129,6 +129,7 @@ STYLES = [
     Style("step", "foam/rkc", "fix step all foam/rkc", {"tolerance": number(above=0)},
           {**INTEGRATOR, "stages": either("auto", integer(3, 200)),
            "spectral": either("auto", number(above=0))}),
+    Style("ages", "foam/contacts", "fix ages all foam/contacts", {}, {"trial": one_of("no", "yes")}),
     Style("compute", "foam/bubble", "compute b all foam/bubble", {},
           quantities=("contacts", "area", "free", "vfilm", "vliquid", "rdot", "espring", "edurian")),
 ]
@@ -145,6 +146,7 @@ SCRIPT = {
     "coeff": "pair_coeff * * 1.0",
     "gas": "fix gas all foam/coarsen 1e-3 0.1",
     "step": "fix step all foam/abm 1e-3",
+    "ages": None,    # in the scripts of its own cases
     "compute": "compute b all foam/bubble contacts",
     "dump": "dump d all custom 1 dump id c_b",
     "thermo": "thermo_style custom step time pe f_gas[1] f_gas[3] f_gas[4] f_gas[5] f_gas[8] f_step[6]",

@@ -176,3 +176,38 @@ TEST(Columns, CopyAndClear)
   EXPECT_EQ(columns[0][2], 0.0);
   EXPECT_EQ(columns[1][2], 0.0);
 }
+
+TEST(Columns, MoreOfThem)
+{
+  TwoSides::Log log;
+  FoamColumns columns(shelf, "columns", 2);
+  columns.keep_in(std::make_unique<TwoSides>(log));
+  columns.widen(3);    // not in use: nothing there
+  EXPECT_TRUE(log.sizes.empty());
+  columns.use(4);
+  columns[2][3] = 5.0;
+  columns.on_device(0)[1] = 7.0;
+  columns.widen(5);
+  EXPECT_EQ(log.sizes.back(), std::pair(5, 4));
+  EXPECT_EQ(columns.active(), 5);
+  EXPECT_EQ(columns[0][1], 7.0);
+  EXPECT_EQ(columns[2][3], 5.0);
+  EXPECT_EQ(columns[4][3], 0.0);
+  columns.widen(2);    // never fewer
+  EXPECT_EQ(columns.capacity(), 5);
+}
+
+TEST(Columns, Swapped)
+{
+  FoamColumns one(shelf, "one", 2), other(shelf, "other", 3);
+  one.use(4);
+  other.use(6);
+  one[1][3] = 1.0;
+  other[2][5] = 2.0;
+  one.swap(other);
+  EXPECT_EQ(one.rows(), 6);
+  EXPECT_EQ(one.active(), 3);
+  EXPECT_EQ(one[2][5], 2.0);
+  EXPECT_EQ(other[1][3], 1.0);
+  EXPECT_STREQ(one.name, "one");
+}

@@ -28,7 +28,7 @@ NAMES = ["plain", "3D", "neighbor drag", "neighbor drag 3D on 2 ranks", "drift r
          "sorted often on 2 ranks", "cutoffs renewed on 4 ranks", "sheared, rkc, 2 ranks", "other forces",
          "viscous", "two runs", "pre no", "restarts written", "integrator again", "exchange again",
          "drag changed", "minimized", "bubbles added", "bubbles deleted", "radii changed",
-         "state stored, 2 ranks"]
+         "state stored, 2 ranks", "contact ages", "contact ages, 2 ranks"]
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -45,6 +45,8 @@ COLUMNS = {
     "film exchange": "plain", "energies": "plain", "gas and rates": "plain",
     "lagged velocities": "neighbor drag", "starts": "plain", "velocities of the start": "neighbor drag",
     "listed places": "plain", "work of the scheme": "source",
+    "contact records": "contact ages", "contact records on trial": "contact ages",
+    "ages of contacts": "contact ages",
 }
 ELSEWHERE = {"low parts of places"}    # in use in single precision alone
 

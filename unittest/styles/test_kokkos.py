@@ -65,6 +65,8 @@ def test_one_step(kk_lmp, base, dim, law, pair, step, ranks):
 # ---- scenes -------------------------------------------------------------------------------------
 
 EXTRA = "dump_modify extra sort id format float %.17g"
+AGES = ("fix ages all foam/contacts trial yes\n"
+        f"dump extra all custom 20 extra id f_ages[*]\n{EXTRA}\n")
 SHEAR = """
 variable      shift equal 0.05*f_step[1]*ly
 variable      rate equal 0.05*ly
@@ -201,6 +203,8 @@ SCENES = {
                               f"dump extra all custom 20 extra id c_e c_s[*]\n{EXTRA}"),
     "one column": dict(after="compute one all foam/bubble area\n"
                              f"dump extra all custom 20 extra id c_one\n{EXTRA}"),
+    "contact ages": dict(after=AGES),
+    "contact ages, 2 ranks": dict(dim=3, ranks=2, after=AGES + "atom_modify sort 10 0.0"),
     "lists of others": dict(after="compute near all coord/atom cutoff 2.5\n"
                                   "compute clusters all cluster/atom 2.5\n"
                                   f"dump extra all custom 20 extra id c_near\n{EXTRA}"),
@@ -274,7 +278,7 @@ VERLET = {**RUN, "after": "run_style verlet/kk"}
 
 
 def with_suffix(text, suffix):
-    text = re.sub("(durian/foam|foam/(abm|coarsen|bubble))", rf"\1{suffix}", text)
+    text = re.sub("(durian/foam|foam/(abm|coarsen|contacts|bubble))", rf"\1{suffix}", text)
     return text.replace("atom_style    sphere", "atom_style sphere/kk")
 
 

@@ -1,0 +1,345 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   This software is distributed under the GNU General Public License.
+   Wet-foam package: see the README file of the package.
+------------------------------------------------------------------------- */
+
+#include "fix_foam_contacts.h"
+
+#include "fix_foam_integrate.h"
+#include "foam_half_list.h"
+#include "foam_host.h"
+#include "foam_input.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+#include "force.h"
+#include "memory.h"
+#include "modify.h"
+#include "neighbor.h"
+
+using namespace LAMMPS_NS;
+using namespace FixConst;
+
+/* ---------------------------------------------------------------------- */
+
+FixFoamContacts::FixFoamContacts(LAMMPS *lmp, int narg, char **arg)
+    : Fix(lmp, narg, arg), reduce(world)
+{
+  if (igroup != 0)
+    error->all(FLERR, "Fix foam/contacts needs group all, since both bubbles keep their contact");
+
+  using Value = FoamInput::Value;
+  FoamInput input(error, "Fix foam/contacts", narg - 3, arg + 3);
+  input.keywords({{"trial", [&](const Value &v) {
+                     tries = v.one_of({"no", "yes"});
+                   }}});
+
+  vector_flag = 1;
+  size_vector = 5;
+  extvector = 0;
+  global_freq = 1;
+  peratom_flag = 1;
+  size_peratom_cols = Foam::SHOWN;
+  peratom_freq = 1;
+
+  restart_global = 1;
+  restart_peratom = 1;
+  create_attribute = 1;
+  maxexchange = exchange_foreseen = history.most();
+
+  grow_arrays(atom->nmax);
+  for (int i = 0; i < atom->nlocal; i++) set_arrays(i);
+  atom->add_callback(Atom::GROW);
+  atom->add_callback(Atom::RESTART);
+  called_back = true;
+}
+
+FixFoamContacts::~FixFoamContacts()
+{
+  memory->destroy(array_atom);
+  if (!called_back) return;
+  atom->delete_callback(id, Atom::GROW);
+  atom->delete_callback(id, Atom::RESTART);
+}
+
+int FixFoamContacts::setmask()
+{
+  return PRE_EXCHANGE | MIN_PRE_EXCHANGE;
+}
+
+void FixFoamContacts::init()
+{
+  pair = dynamic_cast<PairDurianFoam *>(force->pair_match("durian/foam", 0));
+  if (!pair) error->all(FLERR, "Fix foam/contacts needs one pair_style durian/foam");
+  if (pair->kokkosable != kokkosable || (kokkosable && pair->execution_space != execution_space))
+    error->all(FLERR,
+               "Fix foam/contacts and pair style durian/foam must run in the same place: use the "
+               "suffix kk for all styles of the foam or for none");
+  bool integrated = false;
+  for (auto &ifix : modify->get_fix_list())
+    if (dynamic_cast<FixFoamIntegrate *>(ifix)) integrated = true;
+  if (!integrated)
+    error->all(FLERR,
+               "Fix foam/contacts needs a fix that integrates the foam, fix foam/rkc or foam/abm");
+
+  // each rank needs all contacts of its bubbles. With newton on, a half list has those across ranks on one
+  // of them only: then a list of its own
+
+  list_of_pair = kokkosable || !force->newton_pair;
+  if (list_of_pair) return;
+  if (utils::strmatch(force->pair_style, "^hybrid"))
+    error->all(FLERR, "Fix foam/contacts with pair_style hybrid needs newton off");
+  neighbor->add_request(this, NeighConst::REQ_SIZE | NeighConst::REQ_NEWTON_OFF);
+}
+
+void FixFoamContacts::init_list(int, NeighList *its_own)
+{
+  list = its_own;
+}
+
+/* ----------------------------------------------------------------------
+   from state to state
+------------------------------------------------------------------------- */
+
+FoamTotals FixFoamContacts::try_out(double later)
+{
+  while (true) {
+    history.use(atom->nmax);
+    const FoamTotals found = follow(later);
+    const int most = static_cast<int>(found.max[Foam::MOST]);
+    if (most <= history.slots()) return found;
+    history.make_room(most);
+  }
+}
+
+FoamTotals FixFoamContacts::follow(double later)
+{
+  if (list_of_pair) list = pair->list;
+  const int nlocal = atom->nlocal;
+  FoamHost here(lmp);
+  const FoamHalfList<false> rows{list->ilist, list->numneigh, list->firstneigh, nlocal};
+  return follow_in(here, rows, list->inum, MAX(1, nlocal), later);
+}
+
+void FixFoamContacts::take(const FoamTotals &found)
+{
+  history.commit();
+  last = found;
+  formed += found.sum[Foam::FORMED];
+  reduced = is_shown = false;
+}
+
+// what an evaluation on the way says is forgotten, unless it is the last before take()
+
+void FixFoamContacts::attempted(double later)
+{
+  if (tries) try_out(later);
+}
+
+void FixFoamContacts::accepted(double step, bool output_due)
+{
+  take(try_out(step));
+  if (output_due) show();
+}
+
+// Commands may have moved bubbles apart or together: no time has passed.
+
+void FixFoamContacts::setup(int)
+{
+  if (started && ids_have_changed()) {
+    if (comm->me == 0)
+      error->warning(FLERR,
+                     "Fix foam/contacts: the IDs of bubbles have changed, by which contacts are "
+                     "known: their ages begin anew");
+    for (int i = 0; i < atom->nlocal; i++) history.committed.clear(i);
+    started = false;
+  }
+  take(try_out(0.0));
+  if (!started) {
+    formed = 0.0;
+    at_first = of_all_ranks().sum[Foam::PRESENT];
+    started = true;
+  }
+  show();
+}
+
+bool FixFoamContacts::ids_have_changed()
+{
+  host_reads();
+  const double *const known = history.committed[FoamHistory::Records::ID];
+  int changed = 0, any;
+  for (int i = 0; i < atom->nlocal; i++)
+    if (known[i] != 0.0 && known[i] != static_cast<double>(atom->tag[i])) changed = 1;
+  MPI_Allreduce(&changed, &any, 1, MPI_INT, MPI_MAX, world);
+  return any;
+}
+
+void FixFoamContacts::setup_pre_exchange()
+{
+  pre_exchange();
+}
+
+// LAMMPS' buffers have room for an exchanged bubble as it was at Comm::init(), and 1024 numbers to spare.
+// (With maxexchange_dynamic those of comm_style tiled would grow at each exchange.)
+
+void FixFoamContacts::pre_exchange()
+{
+  history.agree(world);
+  maxexchange = history.most();
+  if (maxexchange > exchange_foreseen + 512) {
+    exchange_foreseen = maxexchange;
+    comm->init();
+  }
+}
+
+void FixFoamContacts::min_pre_exchange()
+{
+  pre_exchange();
+}
+
+void FixFoamContacts::post_run()
+{
+  pre_exchange();    // for commands that exchange bubbles
+  if (!is_shown) show();
+}
+
+/* ----------------------------------------------------------------------
+   output
+------------------------------------------------------------------------- */
+
+void FixFoamContacts::show()
+{
+  shown.use(atom->nmax);
+  show_there();
+  is_shown = true;
+  for (int i = 0; i < atom->nlocal; i++)
+    for (int k = 0; k < Foam::SHOWN; k++) array_atom[i][k] = shown[k][i];
+}
+
+void FixFoamContacts::show_there()
+{
+  FoamHost here(lmp);
+  show_in(here);
+}
+
+void FixFoamContacts::look_at(int i)    // between two runs
+{
+  FoamHost here(lmp);
+  Foam::ShowAges{history.records(here, history.committed), {}}.look(i, array_atom[i]);
+}
+
+const FoamTotals &FixFoamContacts::of_all_ranks()
+{
+  if (!reduced) {
+    FoamTotals mine = last;
+    mine.sum[Foam::FORMED] = formed;
+    last_of_all = reduce(mine);
+    reduced = true;
+  }
+  return last_of_all;
+}
+
+double FixFoamContacts::compute_vector(int n)
+{
+  using namespace Foam;
+  const FoamTotals &all = of_all_ranks();
+  const double present = all.sum[PRESENT];
+  switch (n) {
+    case 0:
+      return present;
+    case 1:
+      return all.sum[FORMED];
+    case 2:
+      return at_first + all.sum[FORMED] - present;
+    case 3:
+      return present > 0.0 ? all.sum[AGES] / present : 0.0;
+    default:
+      return all.max[OLDEST];
+  }
+}
+
+/* ----------------------------------------------------------------------
+   records travel with the bubbles
+------------------------------------------------------------------------- */
+
+void FixFoamContacts::grow_arrays(int nmax)
+{
+  history.committed.use(nmax);
+  memory->grow(array_atom, MAX(1, nmax), Foam::SHOWN, "foam/contacts:array");
+}
+
+void FixFoamContacts::copy_arrays(int i, int j, int)
+{
+  history.committed.copy(i, j);
+  for (int k = 0; k < Foam::SHOWN; k++) array_atom[j][k] = array_atom[i][k];
+}
+
+void FixFoamContacts::set_arrays(int i)    // a new bubble
+{
+  history.committed.clear(i);
+  for (int k = 0; k < Foam::SHOWN; k++) array_atom[i][k] = 0.0;
+}
+
+int FixFoamContacts::pack_exchange(int i, double *buf)
+{
+  return history.pack(i, buf);
+}
+
+int FixFoamContacts::unpack_exchange(int i, double *buf)
+{
+  const int n = history.unpack(i, buf);
+  look_at(i);
+  return n;
+}
+
+int FixFoamContacts::pack_restart(int i, double *buf)
+{
+  buf[0] = size_restart(i);
+  return 1 + history.pack(i, buf + 1);
+}
+
+void FixFoamContacts::unpack_restart(int i, int nth)
+{
+  const double *extra = atom->extra[i];
+  for (int m = 0; m < nth; m++) extra += static_cast<int>(*extra);
+  history.unpack(i, extra + 1);
+  look_at(i);
+}
+
+int FixFoamContacts::size_restart(int i)
+{
+  return 1 + history.size(i);
+}
+
+int FixFoamContacts::maxsize_restart()
+{
+  return 1 + history.most();
+}
+
+void FixFoamContacts::write_restart(FILE *fp)
+{
+  const double values[] = {double(started), at_first, of_all_ranks().sum[Foam::FORMED]};
+  if (comm->me != 0) return;
+  const int size = sizeof(values);
+  fwrite(&size, sizeof(int), 1, fp);
+  fwrite(values, size, 1, fp);
+}
+
+void FixFoamContacts::restart(char *buf)
+{
+  const auto *values = (const double *) buf;
+  started = values[0] != 0.0;
+  at_first = values[1];
+  formed = comm->me == 0 ? values[2] : 0.0;
+}
+
+double FixFoamContacts::memory_usage()
+{
+  return bytes(all_columns) + sizeof(double) * double(atom->nmax) * size_peratom_cols;
+}

@@ -1,0 +1,131 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   This software is distributed under the GNU General Public License.
+   Wet-foam package: see the README file of the package.
+------------------------------------------------------------------------- */
+
+#ifdef FIX_CLASS
+// clang-format off
+FixStyle(foam/contacts,FixFoamContacts);
+// clang-format on
+#else
+
+#ifndef LMP_FIX_FOAM_CONTACTS_H
+#define LMP_FIX_FOAM_CONTACTS_H
+
+#include "fix.h"
+#include "foam_ages.h"
+#include "foam_history.h"
+#include "foam_reduce.h"
+#include "pair_durian_foam.h"
+
+#include "atom.h"
+#include "domain.h"
+
+namespace LAMMPS_NS {
+
+// How long each contact has lasted, from one accepted step to the next
+
+class FixFoamContacts : public Fix, public FoamFollower {
+ public:
+  FixFoamContacts(class LAMMPS *, int, char **);
+  ~FixFoamContacts() override;
+  int setmask() override;
+  void init() override;
+  void init_list(int, class NeighList *) override;
+  void setup_pre_exchange() override;
+  void pre_exchange() override;
+  void min_pre_exchange() override;
+  void setup(int) override;
+  void attempted(double) override;
+  void accepted(double, bool) override;
+  void post_run() override;
+  double compute_vector(int) override;
+
+  void grow_arrays(int) override;
+  void copy_arrays(int, int, int) override;
+  void set_arrays(int) override;
+  int pack_exchange(int, double *) override;
+  int unpack_exchange(int, double *) override;
+  int pack_restart(int, double *) override;
+  void unpack_restart(int, int) override;
+  int size_restart(int) override;
+  int maxsize_restart() override;
+  void write_restart(FILE *) override;
+  void restart(char *) override;
+  double memory_usage() override;
+
+ protected:
+  PairDurianFoam *pair = nullptr;
+  FoamReduce reduce;
+
+  FoamColumnList all_columns;
+  FoamHistory history{all_columns, Foam::AGE_VALUES};
+  FoamColumns shown{all_columns, "ages of contacts", Foam::SHOWN, FoamHistory::STAYS};
+  FoamColumnList travelling() const { return chosen(all_columns, FoamHistory::TRAVELS); }
+
+  // the contacts of this state, on trial: those committed are so much older
+
+  virtual FoamTotals follow(double later);
+  template <class Space, class List>
+  FoamTotals follow_in(Space &here, const List &list, int nrows, int chunk, double later);
+  virtual void show_there();
+  template <class Space> void show_in(Space &here);
+  virtual void host_reads() {}
+
+ private:
+  class NeighList *list = nullptr;    // of its own, or that of the pair style
+  bool list_of_pair = true;
+  bool tries = false;    // in attempts, too
+  int exchange_foreseen = 0;
+  bool called_back = false;    // see FixFoamIntegrate
+  bool is_shown = false;       // the present state
+
+  bool started = false;            // kept in restarts, with:
+  double at_first = 0.0;           // contacts when this fix began
+  double formed = 0.0;             // since then, by bubbles of this rank
+  FoamTotals last, last_of_all;    // of the state that is committed
+  bool reduced = false;            // the latter, with all that have formed in place of FORMED
+
+  FoamTotals try_out(double later);
+  void take(const FoamTotals &);
+  void show();
+  void look_at(int);
+  bool ids_have_changed();
+  const FoamTotals &of_all_ranks();
+};
+
+template <class Space, class List>
+FoamTotals FixFoamContacts::follow_in(Space &here, const List &rows, int nrows, int chunk,
+                                      double later)
+{
+  const int nlocal = atom->nlocal, nchunks = (nlocal + chunk - 1) / chunk;
+  const Foam::FollowContacts<typename Space::Bubbles, List> body{
+      here.bubbles(),
+      rows,
+      history.records(here, history.committed),
+      history.records(here, history.trial),
+      later,
+      nrows,
+      nlocal,
+      chunk,
+      domain->dimension == 2};
+  return here.totals(nchunks, body);
+}
+
+template <class Space> void FixFoamContacts::show_in(Space &here)
+{
+  const Foam::ShowAges body{history.records(here, history.committed),
+                            {here.column(shown, Foam::SHOWN_COUNT),
+                             here.column(shown, Foam::SHOWN_OLDEST),
+                             here.column(shown, Foam::SHOWN_MEAN)}};
+  here.for_each(atom->nlocal, body);
+}
+
+}    // namespace LAMMPS_NS
+
+#endif
+#endif

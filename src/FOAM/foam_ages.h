@@ -1,0 +1,113 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   This software is distributed under the GNU General Public License.
+   Wet-foam package: see the README file of the package.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_FOAM_AGES_H
+#define LMP_FOAM_AGES_H
+
+#include "foam_bubbles.h"
+#include "foam_history.h"
+
+// How long contacts have lasted: functors of fix foam/contacts
+
+namespace Foam {
+
+enum { AGE, AGE_VALUES };                                 // of a contact
+enum { FORMED, PRESENT, AGES };                           // sums: contacts new and all, their ages
+enum { MOST, OLDEST };                                    // maxima: contacts of a bubble, ages
+enum { SHOWN_COUNT, SHOWN_OLDEST, SHOWN_MEAN, SHOWN };    // of a bubble
+
+// Those of a state, so much later than the contacts before: who touched then is older, others are new.
+// Rows of pairs are in chunks, see FoamRows; bubbles of a chunk are the work of one thread.  Contacts are those
+// of ContactLoop.
+
+template <class B, class List> struct FollowContacts {
+  static constexpr const char *NAME = "foam: ages of contacts";
+  B b;
+  List list;
+  ContactRecords before, now;
+  double later;
+  int nrows, nlocal, chunk;
+  bool flat;
+
+  FOAM_FUNCTION void operator()(int c, LAMMPS_NS::FoamTotals &all) const
+  {
+    const int begin = c * chunk, end = begin + chunk < nlocal ? begin + chunk : nlocal;
+    for (int i = begin; i < end; i++) {
+      now.id(i) = static_cast<double>(b.tag(i));
+      now.count(i) = 0.0;
+    }
+    for (int n = begin; n < end && n < nrows; n++) {
+      const auto row = list.row(n);
+      const int i = row.i;
+      if (!(b.radius(i) > 0.0)) continue;    // the dead touch nobody
+      row.for_each([&](int j, auto both) {
+        if (!touch(i, j)) return;
+        follow(i, j, all);
+        if (both) follow(j, i, all);
+      });
+    }
+    for (int i = begin; i < end; i++)
+      if (now.count(i) > all.max[MOST]) all.max[MOST] = now.count(i);
+  }
+
+  FOAM_FUNCTION bool touch(int i, int j) const
+  {
+    const double Rj = b.radius(j), Rsum = b.radius(i) + Rj;
+    const double del[3] = {b.x(i, 0) - b.x(j, 0), b.x(i, 1) - b.x(j, 1),
+                           flat ? 0.0 : b.x(i, 2) - b.x(j, 2)};
+    return del[0] * del[0] + del[1] * del[1] + del[2] * del[2] < Rsum * Rsum && Rj > 0.0;
+  }
+
+  // sums take a contact once, from the partner with the lower ID
+
+  FOAM_FUNCTION void follow(int i, int j, LAMMPS_NS::FoamTotals &all) const
+  {
+    const LAMMPS_NS::tagint other = b.tag(j);
+    if (now.find(i, other) >= 0) return;    // by another image
+    const int was = before.find(i, other);
+    const double age = was < 0 ? 0.0 : before.value(i, was, AGE) + later;
+    const int m = now.add(i, other);
+    if (m >= 0) now.value(i, m, AGE) = age;
+    if (other < b.tag(i)) return;
+    if (was < 0) all.sum[FORMED] += 1.0;
+    all.sum[PRESENT] += 1.0;
+    all.sum[AGES] += age;
+    if (age > all.max[OLDEST]) all.max[OLDEST] = age;
+  }
+};
+
+struct ShowAges {
+  static constexpr const char *NAME = "foam: ages of each bubble's contacts";
+  ContactRecords records;
+  double *shown[SHOWN];
+
+  FOAM_FUNCTION void operator()(int i) const
+  {
+    double values[SHOWN];
+    look(i, values);
+    for (int k = 0; k < SHOWN; k++) shown[k][i] = values[k];
+  }
+  FOAM_FUNCTION void look(int i, double *values) const
+  {
+    const int n = static_cast<int>(records.count(i));
+    double oldest = 0.0, sum = 0.0;
+    for (int m = 0; m < n; m++) {
+      const double age = records.value(i, m, AGE);
+      if (age > oldest) oldest = age;
+      sum += age;
+    }
+    values[SHOWN_COUNT] = n;
+    values[SHOWN_OLDEST] = oldest;
+    values[SHOWN_MEAN] = n > 0 ? sum / n : 0.0;
+  }
+};
+
+}    // namespace Foam
+
+#endif
