@@ -115,6 +115,7 @@ FoamTotals FixFoamContacts::try_out(double later)
     const int most = static_cast<int>(found.max[Foam::MOST]);
     if (most <= history.slots()) return found;
     history.make_room(most);
+    maxexchange = history.most();    // fix foam/coarsen may take out the dead before pre_exchange()
   }
 }
 
@@ -294,6 +295,7 @@ int FixFoamContacts::pack_exchange(int i, double *buf)
 int FixFoamContacts::unpack_exchange(int i, double *buf)
 {
   const int n = history.unpack(i, buf);
+  maxexchange = history.most();
   look_at(i);
   return n;
 }
@@ -309,6 +311,7 @@ void FixFoamContacts::unpack_restart(int i, int nth)
   const double *extra = atom->extra[i];
   for (int m = 0; m < nth; m++) extra += static_cast<int>(*extra);
   history.unpack(i, extra + 1);
+  maxexchange = history.most();
   look_at(i);
 }
 

@@ -68,7 +68,8 @@ def bad_arguments():
                        *patterns, "abc")
             yield case(f"{keyword}: two values", good + [keyword, kind.good[0], "1.0"],
                        "unknown", allowed, r"1\.0")
-            yield case(f"{keyword}: before the arguments", [keyword, kind.good[0], *good])
+            if good:
+                yield case(f"{keyword}: before the arguments", [keyword, kind.good[0], *good])
 
 
 @named(bad_arguments())
@@ -98,7 +99,7 @@ def good_arguments():
         if style.quantities:
             yield case("repeated", 2 * good)
         yield case("from a variable", ["${good}"])
-        yield case("on two lines", ["&\n" + good[0], *good[1:]])
+        yield case("on two lines", ["&\n", *good])
 
 
 @named(good_arguments())
