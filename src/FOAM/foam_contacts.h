@@ -82,7 +82,7 @@ struct ContactLoop {
   ContactSums sums;
   bool forces_add;    // even then
 
-  FOAM_FUNCTION void operator()(int n, Tally &tally) const
+  FOAM_ALWAYS_INLINE void operator()(int n, Tally &tally) const
   {
     // numbers are written through pointers that might, for all the compiler knows, point to members
     // of this body: what the inner loop reads is taken out of it
@@ -98,7 +98,7 @@ struct ContactLoop {
         coefficients.ntypes == 1 ? nullptr
                                  : coefficients.sigma0 + b.type(i) * (coefficients.ntypes + 1);
     const double sigma0 = coefficients.sigma0[coefficients.ntypes + 2];    // of types 1 and 1
-    [[maybe_unused]] const bool member_i = s.members(i);
+    [[maybe_unused]] const bool member_i = s.members(i), others = s.members.mask;
     double fi[3] = {}, vsum_i[3] = {};
     double contacts_i = 0.0, area_i = 0.0, film_i = 0.0, espring_i = 0.0, edurian_i = 0.0;
 
@@ -130,8 +130,9 @@ struct ContactLoop {
           tally.pair(i, j, both, force_law.energy(sigma * Rin, overlap, Rsum), F_over_r, del);
         for (int k = 0; k < D; k++) fi[k] += F_xyz[k];
       }
-      [[maybe_unused]] bool bubbles = false;
-      if constexpr (WHAT & (CONTACTS | VSUM | FILM | AREA)) bubbles = member_i && s.members(j);
+      [[maybe_unused]] bool bubbles = true;
+      if constexpr (WHAT & (CONTACTS | VSUM | FILM | AREA))
+        if (others) bubbles = member_i && s.members(j);
       if constexpr (WHAT & CONTACTS)
         if (bubbles) contacts_i += 1.0;
       if constexpr (WHAT & VSUM)

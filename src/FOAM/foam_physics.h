@@ -28,6 +28,14 @@
 #define FOAM_FUNCTION inline
 #endif
 
+// for the one loop that a compiler may take for too large
+
+#if defined(__GNUC__) && !defined(__CUDACC__) && !defined(__HIPCC__)
+#define FOAM_ALWAYS_INLINE __attribute__((always_inline)) inline
+#else
+#define FOAM_ALWAYS_INLINE FOAM_FUNCTION
+#endif
+
 namespace Foam {
 
 // The dimension is a template argument wherever it matters: run<D>() for the one that LAMMPS is told
