@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-using LAMMPS_NS::FoamColumns;
 using LAMMPS_NS::FoamColumnList;
+using LAMMPS_NS::FoamColumns;
 using LAMMPS_NS::FoamHostStorage;
 using LAMMPS_NS::FoamStorage;
 

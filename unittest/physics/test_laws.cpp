@@ -40,7 +40,7 @@ TEST(Laws, ForceIsTheGradientOfTheEnergy)
           // central differences: error of second order, (d / overlap)^2 = 1e-10, and rounding 1e-16 / 1e-5
           const double slope = (law.energy(stiffness, overlap + d, Rsum) -
                                 law.energy(stiffness, overlap - d, Rsum)) /
-              (2.0 * d);
+                               (2.0 * d);
           EXPECT_NEAR(law.force(stiffness, overlap, Rsum) / slope, 1.0, 1e-9)
               << law.NAME << " " << Rsum << " " << delta;
         }
