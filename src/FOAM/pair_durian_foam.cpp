@@ -186,7 +186,9 @@ void PairDurianFoam::init_style()
 
   groupbit = Foam::GROUP_ALL;    // see FixFoamIntegrate::check_companions()
   for (auto &ifix : modify->get_fix_list())
-    if (utils::strmatch(ifix->style, "^foam/")) groupbit = ifix->groupbit;
+    if ((ifix->time_integrate || utils::strmatch(ifix->style, "^foam/coarsen")) &&
+        utils::strmatch(ifix->style, "^foam/"))
+      groupbit = ifix->groupbit;
 
   // <R_in> and <A_in> are those of the first run; commands that initialise before it
   // see preliminary ones.  The largest radius sets all cutoffs, with head-room to grow; that of a

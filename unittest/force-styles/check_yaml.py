@@ -183,6 +183,7 @@ class Foam:
         attempt = {"foam/abm": predictor_corrector, "foam/rkc": stages_of}
 
         for steps in runs:
+            start = t
             if not source or before == 0:        # LAMMPS computes the forces before each run
                 v, qdot = rates(lag)
             for _ in range(steps):
@@ -220,7 +221,7 @@ class Foam:
                 if not source:
                     v, qdot = rates(lag)
         self.v = v
-        vectors = {style: [t, before, accepted, refused, count, error]}
+        vectors = {style: [t, before, accepted, refused, count, error, t - start]}
         if radius:
             vectors[style] += [stages, radius]
         if not gas:
@@ -228,7 +229,8 @@ class Foam:
         tau = float(self.fixes["foam/coarsen"][0][0]) * t / self.rin**2
         phi = (ball * self.R**self.dim).sum() / self.L.prod()
         vectors["foam/coarsen"] = [tau, len(self.R), self.R.mean() / self.rin,
-                                   self.R.max() / self.rin, phi, self.rho, removed, removed_gas]
+                                   self.R.max() / self.rin, phi, self.rho, removed, removed_gas,
+                                   self.rin, self.ain]
         return vectors
 
     def verlet(self, dt, steps):
