@@ -122,7 +122,7 @@ void FixFoamCoarsen::init()
     error->all(FLERR, "Fix foam/coarsen: only one fix of this style can be used at a time");
   bool integrated = false;
   for (auto &ifix : modify->get_fix_list())
-    if (ifix->time_integrate && utils::strmatch(ifix->style, "^foam/")) integrated = true;
+    if (PairDurianFoam::integrated_by(ifix)) integrated = true;
   if (!integrated)
     error->all(FLERR,
                "Fix foam/coarsen needs a fix that integrates the foam, fix foam/rkc or foam/abm");

@@ -9,7 +9,6 @@
 
 #include "fix_foam_contacts.h"
 
-#include "fix_foam_integrate.h"
 #include "foam_half_list.h"
 #include "foam_host.h"
 #include "foam_input.h"
@@ -83,7 +82,7 @@ void FixFoamContacts::init()
                "suffix kk for all styles of the foam or for none");
   bool integrated = false;
   for (auto &ifix : modify->get_fix_list())
-    if (dynamic_cast<FixFoamIntegrate *>(ifix)) integrated = true;
+    if (PairDurianFoam::integrated_by(ifix)) integrated = true;
   if (!integrated)
     error->all(FLERR,
                "Fix foam/contacts needs a fix that integrates the foam, fix foam/rkc or foam/abm");

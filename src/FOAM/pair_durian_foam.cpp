@@ -165,8 +165,6 @@ void PairDurianFoam::unpack_reverse_comm(int n, int *sendlist, double *buf)
 
 /* ---------------------------------------------------------------------- */
 
-/* ---------------------------------------------------------------------- */
-
 void PairDurianFoam::init_style()
 {
   if (!atom->radius_flag)
@@ -186,8 +184,7 @@ void PairDurianFoam::init_style()
 
   groupbit = Foam::GROUP_ALL;    // see FixFoamIntegrate::check_companions()
   for (auto &ifix : modify->get_fix_list())
-    if ((ifix->time_integrate || utils::strmatch(ifix->style, "^foam/coarsen")) &&
-        utils::strmatch(ifix->style, "^foam/"))
+    if (integrated_by(ifix) || utils::strmatch(ifix->style, "^foam/coarsen"))
       groupbit = ifix->groupbit;
 
   // <R_in> and <A_in> are those of the first run; commands that initialise before it
@@ -224,6 +221,11 @@ void PairDurianFoam::init_style()
   neighbor->add_request(this, list_flags);
 }
 
+bool PairDurianFoam::integrated_by(const Fix *fix)
+{
+  return fix->time_integrate && utils::strmatch(fix->style, "^foam/");
+}
+
 // LAMMPS commands that run beside a foam and give wrong numbers without a word of their own
 
 void PairDurianFoam::check_companions()
@@ -245,7 +247,7 @@ void PairDurianFoam::check_companions()
   }
   if (update->whichflag != 1 || inertia_told) return;
   for (auto &ifix : modify->get_fix_list())
-    if (ifix->time_integrate && !utils::strmatch(ifix->style, "^foam/")) {
+    if (ifix->time_integrate && !integrated_by(ifix)) {
       inertia_told = true;
       error->warning(
           FLERR,

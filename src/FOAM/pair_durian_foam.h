@@ -62,15 +62,17 @@ class PairDurianFoam : public Pair {
   void go_on_from(const Record &);    // for a pair style that replaces another
   double tau = 0.0, removed_bubbles = 0.0, removed_gas = 0.0;    // counted by fix foam/coarsen
 
+  static bool integrated_by(const class Fix *);    // does this fix move the bubbles of a foam?
+
   int groupbit = Foam::GROUP_ALL;    // of the bubbles: that of the fixes of the foam
   double mu0;                        // drag coefficient
-  double rin, ain;
+  double rin, ain;                   // see Record
   bool neighbor_drag;     // drag relative to neighbors' mean velocity or to a liquid at rest
-  unsigned gas_wanted;    // set by the integrator: Foam::FILM, AREA to gather in each compute()
+  unsigned gas_wanted;    // set by fix foam/coarsen: Foam::FILM, AREA to gather in each compute()
 
   // the sums over all bubbles of Foam::add_free_surface(), where they come with compute()
 
-  Foam::LiquidLaw liquid_law = Foam::LiquidLaw::AREA;    // set by the integrator
+  Foam::LiquidLaw liquid_law = Foam::LiquidLaw::AREA;    // set by fix foam/coarsen
   Foam::Sums free_surface;
   bool free_surface_known = false;
 
