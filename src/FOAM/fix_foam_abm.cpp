@@ -16,27 +16,27 @@ using namespace LAMMPS_NS;
 FixFoamABM::FixFoamABM(LAMMPS *lmp, int narg, char **arg) : FixFoamIntegrate(lmp, narg, arg)
 {
   settings(narg, arg, {{"scheme", [&](const FoamInput::Value &v) {
-                          control.scheme = v.one_of({"standard", "source"}) == 1
+                          driver.control.scheme = v.one_of({"standard", "source"}) == 1
                                                ? Foam::Scheme::SOURCE
                                                : Foam::Scheme::STANDARD;
                         }}});
-  if (drift_removed && control.scheme == Foam::Scheme::SOURCE)
+  if (drift_removed && driver.control.scheme == Foam::Scheme::SOURCE)
     error->all(FLERR, "Fix {}: drift remove goes with scheme standard, not with scheme source",
                style);
-  if (control.scheme == Foam::Scheme::SOURCE && !norm_given)
+  if (driver.control.scheme == Foam::Scheme::SOURCE && !norm_given)
     norm = Foam::Norm::MAX;    // as in [L20]
   add_callbacks();
 }
 
-FoamTotals FixFoamABM::attempt(double step, bool first)
+Foam::Judgement FixFoamABM::candidate(double step, bool first)
 {
   FoamHost here(lmp, groupbit);
-  return Foam::with_dimension(dim, [&]<int D>() { return attempt_in<D>(here, step, first); });
+  return Foam::with_dimension(dim, [&]<int D>() { return candidate_in<D>(here, step, first); });
 }
 
 // the source takes the rates at the predicted state for those at the corrected one
 
 bool FixFoamABM::evaluates_again() const
 {
-  return control.scheme == Foam::Scheme::STANDARD;
+  return driver.control.scheme == Foam::Scheme::STANDARD;
 }

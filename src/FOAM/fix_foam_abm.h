@@ -19,8 +19,6 @@ FixStyle(foam/abm,FixFoamABM);
 #include "fix_foam_integrate.h"
 #include "foam_abm.h"
 
-#include "atom.h"
-
 namespace LAMMPS_NS {
 
 // Adams-Bashforth-Moulton predictor-corrector of order 2, see foam_stepper.h
@@ -30,19 +28,14 @@ class FixFoamABM : public FixFoamIntegrate {
   FixFoamABM(class LAMMPS *, int, char **);
 
  protected:
-  FoamTotals attempt(double, bool) override;
+  Foam::Judgement candidate(double, bool) override;
   bool evaluates_again() const override;
   bool works() const override { return !evaluates_again(); }
 
-  template <int D, class Space> FoamTotals attempt_in(Space &here, double step, bool first)
+  template <int D, class Space> Foam::Judgement candidate_in(Space &here, double h, bool first)
   {
-    using B = typename Space::Bubbles;
-    const int nlocal = atom->nlocal;
-    const Foam::Predictor p = Foam::predictor(control.scheme, step, h_before);
-    here.for_each(nlocal, Foam::Predict<D, B>{state(here), p, first});
-    evaluate(step);
-    const auto s = state(here);
-    return here.totals(nlocal, Foam::Correct<D, B>{s, rates<D>(here), judge_of<D>(s), step});
+    System<D, Space> system(*this, here);
+    return Foam::attempt_abm(system, driver, h, first);
   }
 };
 

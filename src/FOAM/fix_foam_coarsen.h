@@ -64,10 +64,12 @@ class FixFoamCoarsen : public Fix {
     gas.Ain = mean_surface();
     if (through_films) gas.film = here.column(pair->film, 0);
     gas.area = here.column(pair->area, 0);
-    using Body = Foam::LiquidSums<D, typename Space::Bubbles>;
+    using AddFreeSurface = Foam::AddFreeSurface<D, typename Space::Bubbles>;
     if (gas.through_liquid())
-      gas.take(pair->free_surface_known ? pair->free_surface
-                                        : here.sums(nlocal, Body{here.bubbles(), law, gas.area}));
+      gas.use(pair->free_surface_known
+                  ? pair->free_surface
+                  : here.template sums<Foam::FreeSurface>(
+                        nlocal, AddFreeSurface{here.bubbles(), law, gas.area}));
     return gas;
   }
   template <int D> void took(const Foam::Exchange<D> &gas)    // the integrator, for its rates
@@ -97,7 +99,7 @@ class FixFoamCoarsen : public Fix {
   double ain_given;    // <A_in> if the user gave it, else 0
   bigint nmin;
   double rho;
-  const double *rho_elsewhere = nullptr;    // see Foam::Sums
+  const Foam::FreeSurface *rho_elsewhere = nullptr;    // see Foam::Sums
   bool dead;    // there are removed bubbles, on any rank, that are not yet taken out
 
   bool find_pair();

@@ -60,7 +60,7 @@ class FixFoamContacts : public Fix, public FoamFollower {
 
  protected:
   PairDurianFoam *pair = nullptr;
-  FoamReduce reduce;
+  FoamReduce<FoamTotals> reduce;
 
   FoamColumnList all_columns;
   FoamHistory history{all_columns, Foam::AGE_VALUES};
@@ -113,7 +113,7 @@ FoamTotals FixFoamContacts::follow_in(Space &here, const List &rows, int nrows, 
       nlocal,
       chunk,
       domain->dimension == 2};
-  return here.totals(nchunks, body);
+  return here.template totals<FoamTotals>(nchunks, body);
 }
 
 template <class Space> void FixFoamContacts::show_in(Space &here)

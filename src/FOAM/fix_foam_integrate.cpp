@@ -57,7 +57,7 @@ void FixFoamIntegrate::settings(int narg, char **arg, const FoamInput::Keywords 
 {
   using Value = FoamInput::Value;
   FoamInput input(error, fmt::format("Fix {}", style), narg - 3, arg + 3);
-  control.tolerance = input.argument("tolerance").number(FoamInput::ABOVE, 0.0);
+  driver.control.tolerance = input.argument("tolerance").number(FoamInput::ABOVE, 0.0);
 
   FoamInput::Keywords all{
       {"dt0",
@@ -80,11 +80,11 @@ void FixFoamIntegrate::settings(int narg, char **arg, const FoamInput::Keywords 
        }},
       {"safety",
        [&](const Value &v) {
-         control.safety = v.between(0.0, 1.0);
+         driver.control.safety = v.between(0.0, 1.0);
        }},
       {"growth",
        [&](const Value &v) {
-         control.growth = v.number(FoamInput::ABOVE, 1.0);
+         driver.control.growth = v.number(FoamInput::ABOVE, 1.0);
        }},
       {"drift", [&](const Value &v) {
          drift_removed = v.one_of({"keep", "remove"}) == 1;
@@ -143,7 +143,7 @@ void FixFoamIntegrate::init()
     if (auto *found = dynamic_cast<FoamFollower *>(ifix)) followers.push_back(found);
   }
   check_companions();
-  time_then = time;
+  time_then = driver.time;
   if (record.rin > 0.0) pair->go_on_from(record);
 
   const bool drifts =
@@ -160,12 +160,20 @@ void FixFoamIntegrate::init()
   pair->gas_wanted = 0;
   if (gas) gas->tell(*pair);
   pair->radii_change = gas != nullptr;
-  if (pair->neighbor_drag) lags.use(atom->nmax);
+  lag.active = pair->neighbor_drag && evaluates_again();    // the source takes v itself for l
+  if (pair->neighbor_drag) lag.columns.use(atom->nmax);
 }
 
-bool FixFoamIntegrate::lagged() const
+// fix enforce2d, which 2D scenes often have, sets to 0 what is 0
+
+bool FixFoamIntegrate::others_act() const
 {
-  return pair->neighbor_drag && evaluates_again();    // the source takes v itself for l
+  if (!modify->n_pre_force && !modify->n_post_force_any) return false;
+  for (int m = 0; m < modify->nfix; m++)
+    if ((modify->fmask[m] & (PRE_FORCE | POST_FORCE)) &&
+        !utils::strmatch(modify->fix[m]->style, "^enforce2d"))
+      return true;
+  return false;
 }
 
 /* ----------------------------------------------------------------------
@@ -175,74 +183,57 @@ bool FixFoamIntegrate::lagged() const
 void FixFoamIntegrate::initial_integrate(int)
 {
   out.begin_step();
-  bool refused = false, first = true;
   atime_start = update->atime;
   if (domain->box_change) list.state_has_changed();    // the box has moved since
   if (gas && gas->changed) {                           // and no set-up has looked at it
     evaluate(0.0);
     take_rates(false);
-    have_lags = lagged();
-    h_before = 0.0;
+    lag.known = lag.active;
+    driver.h_before = 0.0;
     gas->changed = false;
   }
-
-  while (true) {
-    const double step = MIN(h, largest_step());
-    const bool too_short = step < 1.0e-12 * natural_time() || time + step == time;
-    if (too_short && !refused)
-      error->all(FLERR,
-                 "Fix {}: the step of {} at step {}, t = {}, is too short: raise dt0, dtmax or the "
-                 "timestep command",
-                 style, step, update->ntimestep, time);
-    if (too_short)
-      error->all(FLERR,
-                 "Fix {}: the step fell to {} at step {}, t = {}, with error {} above the "
-                 "tolerance {}: look for bad forces, raise the tolerance or lower dt0; {}",
-                 style, step, update->ntimestep, time, error_last, control.tolerance,
-                 worst_bubble());
-
-    judge(attempt(step, first));
-    first = false;
-
-    // forces beyond the neighbor list are not trusted: list the start anew, or step less far
-
-    const double moved = totals.max[Foam::MOVED], margin = list.margin();
-    if (moved > margin) {
-      if (list.is_new()) {
-        rejected++;
-        list.outlisted++;
-        refused = true;
-        h = control.within(step, margin / moved);
-      } else {
-        return_to_start();
-        list.rebuild();
-        first = true;
-      }
-      continue;
-    }
-
-    h = control.next(step, error_last, refused);
-    if (control.accepts(error_last)) {
-      accept(step);
-      break;
-    }
-    rejected++;
-    refused = true;
-  }
-  out.schedule_time_dumps(MIN(h, largest_step()));
+  driver.step(*this);
+  out.schedule_time_dumps(MIN(driver.h, largest_step()));
   if (gas && gas->has_dead() && out.due(this)) next_reneighbor = update->ntimestep;
 }
 
-// what is to be known of a candidate, over all ranks at once
+// a candidate, and what is to be known of it over all ranks
 
-void FixFoamIntegrate::judge(const FoamTotals &mine)
+Foam::Trial FixFoamIntegrate::attempt(double step, bool first)
 {
-  using namespace Foam;
-  totals = reduce(mine);
-  const double bubbles = totals.sum[BUBBLES] + totals.sum[REMOVED];
-  error_last = step_error(norm, totals.max[ERROR], totals.sum[SQUARES],
-                          bubbles * (dim + (grows() ? 1 : 0)), pair->rin);
-  if (totals.sum[BAD] > 0.0) error_last = INFINITY;
+  totals = reduce(candidate(step, first));
+  const double components = (totals.bubbles + totals.removed) * (dim + (grows() ? 1 : 0));
+  double error =
+      Foam::step_error(norm, totals.error, totals.squares, components, pair->rin);
+  if (totals.bad > 0.0) error = INFINITY;
+  return {error, totals.moved, list.margin()};
+}
+
+// forces beyond the neighbor list are not trusted: list the start anew, or step less far
+
+bool FixFoamIntegrate::extend_reach()
+{
+  if (list.is_new()) {
+    list.outlisted++;
+    return false;
+  }
+  return_to_start();
+  list.rebuild();
+  return true;
+}
+
+void FixFoamIntegrate::too_short(double step, bool refused)
+{
+  if (!refused)
+    error->all(FLERR,
+               "Fix {}: the step of {} at step {}, t = {}, is too short: raise dt0, dtmax or the "
+               "timestep command",
+               style, step, update->ntimestep, driver.time);
+  error->all(FLERR,
+             "Fix {}: the step fell to {} at step {}, t = {}, with error {} above the "
+             "tolerance {}: look for bad forces, raise the tolerance or lower dt0; {}",
+             style, step, update->ntimestep, driver.time, driver.error_last,
+             driver.control.tolerance, worst_bubble());
 }
 
 // The history waits for the next rates, in one loop with them, unless these are known already,
@@ -250,26 +241,23 @@ void FixFoamIntegrate::judge(const FoamTotals &mine)
 
 bool FixFoamIntegrate::history_at_accept() const
 {
-  return !evaluates_again() || lagged() || domain->deform_vremap;
+  return !evaluates_again() || lag.active || domain->deform_vremap;
 }
 
 void FixFoamIntegrate::accept(double step)
 {
   if (has_history() && history_at_accept()) keep_history();
-  if (gas) remove_small();    // lets bubbles grow a little: adds to AHEAD
+  if (gas) remove_small();    // lets bubbles grow a little: adds to totals.ahead
 
-  time += step;
-  h_before = h_last = step;
-  accepted++;
   list.state_has_changed();
-  if (totals.max[Foam::AHEAD] > list.margin()) next_reneighbor = update->ntimestep;
+  if (totals.ahead > list.margin()) next_reneighbor = update->ntimestep;
 
   update->atime = atime_start + step;
   update->atimestep = update->ntimestep;
   set_timestep(step);
 
   if (gas) {
-    gas->accepted(step, totals.sum[Foam::REMOVED], totals.sum[Foam::GAS_REMOVED]);
+    gas->accepted(step, totals.removed, totals.gas_removed);
     const std::string reason = gas->end_reached();
     if (!reason.empty()) out.stop_run(style, reason);
   }
@@ -292,19 +280,19 @@ void FixFoamIntegrate::remove_small()
 {
   using namespace Foam;
   double scale = 1.0;    // of radii
-  if (totals.sum[REMOVED] > 0.0) {
-    if (!(totals.sum[GAS] > 0.0))
+  if (totals.removed > 0.0) {
+    if (!(totals.gas > 0.0))
       error->all(FLERR,
                  "Fix {}: no bubbles are left after step {}, t = {}: all {:.0f} fell below "
                  "rmin at once; lower rmin or the tolerance, or end the run earlier with nmin",
-                 style, update->ntimestep, time, totals.sum[REMOVED]);
-    const double factor = redistribution_factor(totals.sum[GAS_REMOVED], totals.sum[GAS]);
+                 style, update->ntimestep, driver.time, double(totals.removed));
+    const double factor = redistribution_factor(totals.gas_removed, totals.gas);
     scale = with_dimension(dim, [&]<int D>() { return radius_of_power<D>(factor); });
     redistribute(variable == Variable::RADIUS ? scale : factor);
   }
-  gas->population = {totals.sum[BUBBLES], totals.sum[RADII] * scale,
-                     totals.sum[GAS] + totals.sum[GAS_REMOVED], totals.max[LARGEST] * scale};
-  totals.max[AHEAD] += totals.max[LARGEST] * (scale - 1.0);
+  gas->population = {totals.bubbles, totals.radii * scale, totals.gas + totals.gas_removed,
+                     totals.radius_max * scale};
+  totals.ahead.value += totals.radius_max * (scale - 1.0);
 }
 
 /* ----------------------------------------------------------------------
@@ -386,11 +374,11 @@ void FixFoamIntegrate::evaluate(double later)
 
 void FixFoamIntegrate::final_integrate()
 {
-  for (FoamFollower *one : followers) one->accepted(h_last, out.due(this));
+  for (FoamFollower *one : followers) one->accepted(driver.h_last, out.due(this));
   if (!evaluates_again()) return;
   evaluations++;
   take_rates(has_history() && !history_at_accept());
-  have_lags = lagged();
+  lag.known = lag.active;
 }
 
 /* ----------------------------------------------------------------------
@@ -401,7 +389,7 @@ void FixFoamIntegrate::post_neighbor()
 {
   start.use(atom->nmax);
   listed.use(atom->nmax);
-  if (lagged()) v_start.use(atom->nmax);
+  if (lag.active) lag.v_start.use(atom->nmax);
   if (works()) work.use(atom->nmax);
   take_listed();
   list.built();
@@ -448,10 +436,8 @@ void FixFoamIntegrate::post_run()
   record = pair->record();
   set_timestep(dt_given);    // minimizers, for one, step by it
   list.give_checks_back();
-  list.warn(style, accepted - accepted_then);
-  if (lags.in_use())
-    for (int i = 0; i < atom->nlocal; i++)
-      for (int k = 0; k < 3; k++) lags[LASTX + k][i] = atom->v[i][k];
+  list.warn(style, driver.accepted - accepted_then);
+  lag.keep_last();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -481,18 +467,18 @@ double FixFoamIntegrate::compute_vector(int n)
 {
   switch (n) {
     case 0:
-      return time;
+      return driver.time;
     case 1:
-      return h_last;
+      return driver.h_last;
     case 2:
-      return accepted;
+      return driver.accepted;
     case 3:
-      return rejected;
+      return driver.rejected;
     case 4:
       return evaluations;
     case 5:
-      return error_last;
+      return driver.error_last;
     default:
-      return time - time_then;
+      return driver.time - time_then;
   }
 }

@@ -12,12 +12,17 @@
 
 #include "fix.h"
 #include "fix_foam_coarsen.h"
+#include "foam_driver.h"
 #include "foam_history.h"
 #include "foam_host.h"
 #include "foam_input.h"
+#include "foam_lag.h"
 #include "foam_list_guard.h"
 #include "foam_output.h"
 #include "foam_state.h"
+
+#include "atom.h"
+#include "domain.h"
 
 #include <array>
 #include <cmath>
@@ -30,12 +35,13 @@ namespace LAMMPS_NS {
 // What every integrator of a foam shares; a scheme, such as FixFoamABM, adds its formula.
 //
 // The state is y = (x, q) with q = R^d (or R), its rates are f = (v, qdot).  One LAMMPS
-// timestep is one accepted step: initial_integrate() tries steps, each with evaluations out
-// of turn, until one is accepted; LAMMPS then computes the forces of the new state, and
-// final_integrate() turns them into the rates that the next step starts from.  So thermo,
-// dumps and restarts see one consistent state.
+// timestep is one accepted step: in initial_integrate() Foam::Driver tries steps, each with
+// evaluations out of turn, until one is accepted; LAMMPS then computes the forces of the new
+// state, and final_integrate() turns them into the rates that the next step starts from.  So
+// thermo, dumps and restarts see one consistent state.
 //
-// Loops over bubbles (their functors: foam_state.h) are virtual functions of a line: each calls a
+// A scheme finds the equations in a System, see foam_scheme.h.  Other loops over bubbles (their
+// functors: foam_state.h) are virtual functions of a line: each calls a
 // template, named with _in, for the space in which this style runs.  A style for a device
 // overrides those and keeps the rest.
 
@@ -76,7 +82,7 @@ class FixFoamIntegrate : public Fix {
   PairDurianFoam *pair = nullptr;
   FixFoamCoarsen *gas = nullptr;    // null: radii stay as they are
   std::vector<FoamFollower *> followers;
-  FoamReduce reduce;
+  FoamReduce<Foam::Judgement> reduce;
   FoamListGuard list;
   FoamOutput out;
   int dim;
@@ -87,7 +93,6 @@ class FixFoamIntegrate : public Fix {
   void add_callbacks();
   bool called_back = false;
 
-  Foam::StepControl control;
   Foam::Variable variable = Foam::Variable::VOLUME;
   Foam::Norm norm = Foam::Norm::RMS;
   bool norm_given = false;
@@ -96,15 +101,11 @@ class FixFoamIntegrate : public Fix {
 
   // progress, kept in restarts
 
-  double time = 0.0;
-  double h = 0.0;           // step to try next; 0 before the first
-  double h_before = 0.0;    // step between f_{n-1} and f_n; 0 without history
-  double h_last = 0.0;      // last accepted step
-  double accepted = 0.0, rejected = 0.0, evaluations = 0.0, error_last = 0.0;
+  Foam::Driver driver;    // steps, and how their length is controlled
+  double evaluations = 0.0;
   double bubbles_last = 0.0;        // their number at the end of the last run
   double dt_given = 0.0;            // of the timestep command, put back after a run
   PairDurianFoam::Record record;    // for a pair style that is replaced in mid-simulation
-  double have_lags = 0.0;           // 1 if LAG and LAST are those of a previous run
   virtual std::vector<double *> progress();
 
   // per bubble; those that travel with it stand in restart files, too
@@ -118,30 +119,24 @@ class FixFoamIntegrate : public Fix {
   enum { Q, QDOT, VX_BEFORE, VY_BEFORE, VZ_BEFORE, QDOT_BEFORE, NCOLUMNS };
   FoamColumns columns{all_columns, "gas and rates", NCOLUMNS, TRAVELS};
 
-  // neighbor drag only: the velocities l that the evaluation of the present ones took as given,
-  // see Foam::lagged_velocity(), and the velocities with which the last run ended
-
-  enum { LAGX, LAGY, LAGZ, LASTX, LASTY, LASTZ, NLAGS };
-  FoamColumns lags{all_columns, "lagged velocities", NLAGS, TRAVELS};
+  FoamLag lag{lmp, all_columns, TRAVELS, STAYS};    // neighbor drag only
 
   // what LAMMPS' own coordinates lack of these in double precision, if it keeps less: see
   // FoamKokkosBubbles. A sum of many small steps would drown in them.
 
-  FoamColumns low{all_columns, "low parts of places", 3, TRAVELS};
+  FoamColumns residuals{all_columns, "residuals of places", 3, TRAVELS};
 
   // per bubble, of one step or one neighbor list
 
   enum { XSTART, YSTART, ZSTART, QSTART, RSTART, NSTART };
   FoamColumns start{all_columns, "starts", NSTART, STAYS};    // y_n, and the radii in it
-  FoamColumns v_start{all_columns, "velocities of the start", 3,
-                      STAYS};    // v_n, where neighbor drag needs LAMMPS' v for l
   enum { XLISTED, YLISTED, ZLISTED, RLISTED, NLISTED };
   FoamColumns listed{all_columns, "listed places", NLISTED, STAYS};
   FoamColumns work{all_columns, "work of the scheme", 5, STAYS};    // within a step
 
   // ---- what a scheme does
 
-  virtual FoamTotals attempt(double step, bool first) = 0;     // candidate, judged: see Foam::Judge
+  virtual Foam::Judgement candidate(double step, bool first) = 0;    // of this rank
   virtual bool evaluates_again() const { return true; }        // or has the next rates in work
   virtual bool has_history() const { return true; }            // needs f_{n-1}
   virtual bool works() const { return false; }                 // uses work
@@ -154,48 +149,24 @@ class FixFoamIntegrate : public Fix {
 
   void evaluate(double later);
 
-  bool lagged() const;    // does the pair style take l from v
+  template <int D, class Space> class System;    // the equations, for a scheme
+
   double q_of(double R) const
   {
     return Foam::with_dimension(dim, [&]<int D>() { return Foam::q_of<D>(variable, R); });
   }
+  bool others_act() const;    // other fixes, on the forces
   bool grows() const { return gas && gas->K > 0.0; }
   double natural_time() const;
-  template <class Space> Foam::State<typename Space::Bubbles> state(Space &here)
+
+  // ---- the equations and where their numbers are
+
+  template <class Space> Foam::State<typename Space::Bubbles> state(Space &here);
+  template <int D, class Space> Foam::Fields<D, typename Space::Bubbles> fields(Space &here)
   {
-    auto at = [&](FoamColumns &c, int k) {
-      return here.column(c, k);
-    };
-    auto v_at = [&](int k) {
-      return lagged() ? here.column(v_start, k) : nullptr;
-    };
-    auto next_at = [&](int k) {
-      return evaluates_again() ? nullptr : here.column(work, k);
-    };
-    return {here.bubbles(),
-            at(columns, Q),
-            at(columns, QDOT),
-            {at(columns, VX_BEFORE), at(columns, VY_BEFORE), at(columns, VZ_BEFORE)},
-            at(columns, QDOT_BEFORE),
-            {at(start, XSTART), at(start, YSTART), at(start, ZSTART)},
-            at(start, QSTART),
-            at(start, RSTART),
-            {v_at(0), v_at(1), v_at(2)},
-            {at(lags, LAGX), at(lags, LAGY), at(lags, LAGZ)},
-            {at(listed, XLISTED), at(listed, YLISTED), at(listed, ZLISTED)},
-            at(listed, RLISTED),
-            {next_at(0), next_at(1), next_at(2)},
-            next_at(3),
-            gas != nullptr,
-            grows(),
-            variable};
+    return {state(here)};
   }
   template <int D, class Space> Foam::Rates<D, typename Space::Bubbles> rates(Space &here);
-
-  template <int D, class B> Foam::Judge<D, B> judge_of(const Foam::State<B> &s) const
-  {
-    return {s, gas ? gas->smallest_radius() : 0.0};
-  }
 
   // ---- the loops over bubbles
 
@@ -225,35 +196,66 @@ class FixFoamIntegrate : public Fix {
 
  private:
   bool ghosts_checked = false;    // their radii are communicated
-  bool lags_given = false;        // to LAMMPS' own evaluation before a run
+  bool lag_given = false;         // to LAMMPS' own evaluation before a run
   double atime_start = 0.0;       // LAMMPS' time at the start of the step
   double accepted_then = 0.0;     // steps before this run
   double time_then = 0.0;         // t when LAMMPS' fixes were initialised last
   bool deform_told = false;       // what its styles make of changing steps
   bool idle_told = false;         // that no gas is exchanged
   bool others_told = false;       // that some particles with a radius are no bubbles
-  FoamTotals totals;              // of a candidate, over all ranks
+  Foam::Judgement totals;         // of a candidate, over all ranks
 
   std::map<tagint, std::array<double, 3>> places;    // of a triclinic box, before set-up
 
   void check_bubbles();
   void check_ghosts();
-  void give_lags();
   double bubbles();
   void check_companions();
   void check_deform(Fix *);
   std::string worst_bubble();
-  template <int D> FoamTotals change_of_rates();
+  struct ChangeOfRates;
+  template <int D> ChangeOfRates change_of_rates();
+  void give_lag();
   void take_population();
-  void judge(const FoamTotals &mine);
   void remove_small();
   bool history_at_accept() const;
-  void accept(double step);
   void set_timestep(double);
+
+  // for the driver
+
+  friend struct Foam::Driver;
   double largest_step() const;
+  double shortest() const { return 1.0e-12 * natural_time(); }
+  Foam::Trial attempt(double step, bool first);
+  bool extend_reach();
+  void accept(double step);
+  [[noreturn]] void too_short(double step, bool refused);
 };
 
 // ---------------------------------------------------------------------- loops, for any space
+
+template <class Space>
+Foam::State<typename Space::Bubbles> FixFoamIntegrate::state(Space &here)
+{
+  Foam::State<typename Space::Bubbles> s{here.bubbles()};
+  s.q = here.column(columns, Q);
+  s.qdot = here.column(columns, QDOT);
+  for (int n = 0; n < s.MOST; n++) {
+    s.start[n] = here.column(start, XSTART + n);
+    s.before[n] = here.column(columns, VX_BEFORE + n);
+    s.next[n] = evaluates_again() ? nullptr : here.column(work, n);
+  }
+  s.radius_start = here.column(start, RSTART);
+  for (int k = 0; k < 3; k++) s.x_listed[k] = here.column(listed, XLISTED + k);
+  s.radius_listed = here.column(listed, RLISTED);
+  s.lag = lag.view(here);
+  s.counts = gas != nullptr;
+  s.grows = grows();
+  s.variable = variable;
+  s.q_unit = Foam::with_dimension(
+      dim, [&]<int D>() { return Foam::slope_of_q<D>(variable, pair->rin); });
+  return s;
+}
 
 // Averaging over neighbors leaves a common velocity as it is, so with neighbor drag the foam
 // as a whole may drift; the remedy goes on in the frame in which it is at rest.
@@ -261,57 +263,98 @@ class FixFoamIntegrate : public Fix {
 template <int D, class Space>
 Foam::Rates<D, typename Space::Bubbles> FixFoamIntegrate::rates(Space &here)
 {
+  using B = typename Space::Bubbles;
   const Foam::ContactSums sums = pair->contact_sums(here);
-  Foam::Rates<D, typename Space::Bubbles> f{here.bubbles(), pair->mu0};
-  if (pair->neighbor_drag) {
-    f.contacts = sums.contacts;
-    for (int k = 0; k < 3; k++) f.vsum[k] = sums.vsum[k];
+  Foam::Drag<D, B> drag{here.bubbles(), pair->mu0};
+  if (pair->neighbor_drag)
+    drag.ambient = {sums.contacts, {sums.vsum[0], sums.vsum[1], sums.vsum[2]}};
+  if (drift_removed) {
+    drag.drift =
+        here.template sums<Foam::DriftTotals>(atom->nlocal, Foam::AddDrift<D, B>{drag});
+    drag.drift_removed = true;
   }
+  Foam::Rates<D, B> f{here.bubbles(), drag};
   f.variable = variable;
+  f.grows = grows();
   if (gas) {
     f.gas = gas->exchange<D>(here, atom->nlocal);
     gas->took(f.gas);
   }
-  if (drift_removed) {
-    f.drift = here.sums(atom->nlocal, Foam::DriftSums<D, typename Space::Bubbles>{f});
-    f.drift_removed = true;
-  }
   return f;
 }
+
+// The equations as a scheme sees them: foam_scheme.h
+
+template <int D, class Space> class FixFoamIntegrate::System {
+  FixFoamIntegrate &fix;
+  Space &here;
+  const int n;
+
+ public:
+  using B = typename Space::Bubbles;
+  using Fields = Foam::Fields<D, B>;
+  using Totals = Foam::Judgement;
+
+  System(FixFoamIntegrate &fix, Space &here) : fix(fix), here(here), n(fix.atom->nlocal) {}
+
+  Fields fields() { return fix.fields<D>(here); }
+  Foam::Rates<D, B> rates() { return fix.rates<D>(here); }
+  Foam::Judge<D, B> judge()
+  {
+    return {fields(), fix.gas ? fix.gas->smallest_radius() : 0.0};
+  }
+  Foam::Work<Fields> work()
+  {
+    Foam::Work<Fields> w;
+    for (int m = 0; m < Fields::MOST; m++) w.field[m] = here.column(fix.work, m);
+    w.bubble = here.column(fix.work, Fields::MOST);
+    return w;
+  }
+  void evaluate(double later) { fix.evaluate(later); }
+  template <class Functor> void for_each(const Functor &functor) { here.for_each(n, functor); }
+  template <class T, class Functor> T totals(const Functor &functor)
+  {
+    return here.template totals<T>(n, functor);
+  }
+  template <class T> T reduce(const T &mine) { return foam_reduce(mine, fix.world); }
+  double length() const { return fix.pair->rin; }
+  bool moves_by_itself() const { return fix.domain->box_change; }
+  bool others_act() const { return fix.others_act(); }
+  bool lags() const { return fix.lag.active; }
+};
 
 template <class Space> void FixFoamIntegrate::keep_history_in(Space &here)
 {
   using B = typename Space::Bubbles;
-  const auto s = state(here);
-  Foam::with_dimension(dim,
-                       [&]<int D>() { here.for_each(atom->nlocal, Foam::KeepHistory<D, B>{s}); });
+  Foam::with_dimension(dim, [&]<int D>() {
+    here.for_each(atom->nlocal, Foam::KeepHistory<D, B>{fields<D>(here)});
+  });
 }
 
 template <class Space> void FixFoamIntegrate::take_rates_in(Space &here, bool history)
 {
   using B = typename Space::Bubbles;
-  const auto s = state(here);
   Foam::with_dimension(dim, [&]<int D>() {
-    here.for_each(atom->nlocal, Foam::TakeRates<D, B>{s, rates<D>(here), history, lagged()});
+    here.for_each(atom->nlocal,
+                  Foam::TakeRates<D, B>{fields<D>(here), rates<D>(here), history});
   });
 }
 
 template <class Space> void FixFoamIntegrate::redistribute_in(Space &here, double factor)
 {
   using B = typename Space::Bubbles;
-  const auto s = state(here);
   const double smallest = gas->smallest_radius();
   Foam::with_dimension(dim, [&]<int D>() {
-    here.for_each(atom->nlocal, Foam::Redistribute<D, B>{s, smallest, factor});
+    here.for_each(atom->nlocal, Foam::Redistribute<D, B>{state(here), smallest, factor});
   });
 }
 
 template <class Space> void FixFoamIntegrate::return_to_start_in(Space &here)
 {
   using B = typename Space::Bubbles;
-  const auto s = state(here);
-  Foam::with_dimension(dim,
-                       [&]<int D>() { here.for_each(atom->nlocal, Foam::ReturnToStart<D, B>{s}); });
+  Foam::with_dimension(dim, [&]<int D>() {
+    here.for_each(atom->nlocal, Foam::ReturnToStart<D, B>{fields<D>(here)});
+  });
 }
 
 template <class Space> void FixFoamIntegrate::take_listed_in(Space &here)
@@ -321,13 +364,13 @@ template <class Space> void FixFoamIntegrate::take_listed_in(Space &here)
 
 template <class Space> double FixFoamIntegrate::largest_radius_in(Space &here)
 {
-  const Foam::LargestRadius<typename Space::Bubbles> body{here.bubbles()};
-  return here.totals(atom->nlocal, body).max[Foam::LARGEST];
+  const Foam::LargestRadius<typename Space::Bubbles> functor{here.bubbles()};
+  return here.template totals<FoamMax>(atom->nlocal, functor);
 }
 
 template <class Space> double FixFoamIntegrate::count_bubbles_in(Space &here)
 {
-  return here.totals(atom->nlocal, Foam::CountBubbles()).sum[Foam::BUBBLES];
+  return here.template totals<FoamSum>(atom->nlocal, Foam::CountBubbles());
 }
 
 }    // namespace LAMMPS_NS

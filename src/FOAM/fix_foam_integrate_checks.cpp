@@ -116,27 +116,29 @@ std::string FixFoamIntegrate::worst_bubble()
     }
     return std::isfinite(square + all) ? square : INFINITY;
   };
-  FoamTotals mine;
-  double &most = mine.max[0], &tag = mine.max[1];
-  for (int i = 0; i < atom->nlocal; i++) most = MAX(most, size(i));
-  most = reduce(mine).max[0];
+  double most = -1.0, tag = 0.0, mine = -1.0;
+  for (int i = 0; i < atom->nlocal; i++) mine = MAX(mine, size(i));
+  MPI_Allreduce(&mine, &most, 1, MPI_DOUBLE, MPI_MAX, world);
+  mine = 0.0;
   for (int i = 0; i < atom->nlocal; i++)
-    if (size(i) == most) tag = MAX(tag, double(atom->tag[i]));
-  tag = reduce(mine).max[1];
+    if (size(i) == most) mine = MAX(mine, double(atom->tag[i]));
+  MPI_Allreduce(&mine, &tag, 1, MPI_DOUBLE, MPI_MAX, world);
 
-  FoamTotals its;    // place and radius at the start of the step, force
+  struct {
+    double place[3], radius, force[3];    // the first two at the start of the step
+  } here{}, its;
   for (int i = 0; i < atom->nlocal; i++)
     if (double(atom->tag[i]) == tag) {
-      for (int k = 0; k < 3; k++) its.sum[k] = k < dim ? start[XSTART + k][i] : 0.0;
-      for (int k = 0; k < 3; k++) its.sum[3 + k] = atom->f[i][k];
-      its.sum[6] = gas ? start[RSTART][i] : atom->radius[i];
+      for (int k = 0; k < dim; k++) here.place[k] = start[XSTART + k][i];
+      for (int k = 0; k < 3; k++) here.force[k] = atom->f[i][k];
+      here.radius = gas ? start[RSTART][i] : atom->radius[i];
     }
-  its = reduce(its);
+  MPI_Allreduce(&here, &its, sizeof(its) / sizeof(double), MPI_DOUBLE, MPI_SUM, world);
   std::string message =
       fmt::format("bubble {:.0f}, of radius {:.8} and at {:.8} {:.8} {:.8} when the step began",
-                  tag, its.sum[6], its.sum[0], its.sum[1], its.sum[2]);
+                  tag, its.radius, its.place[0], its.place[1], its.place[2]);
   if (std::isfinite(most))
-    return fmt::format("the largest force, {:.4} {:.4} {:.4}, acts on {}", its.sum[3], its.sum[4],
-                       its.sum[5], message);
+    return fmt::format("the largest force, {:.4} {:.4} {:.4}, acts on {}", its.force[0],
+                       its.force[1], its.force[2], message);
   return fmt::format("the force on it, the velocity or the place of {}, is no number", message);
 }

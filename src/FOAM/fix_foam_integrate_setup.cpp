@@ -71,34 +71,43 @@ void FixFoamIntegrate::pre_neighbor()
 void FixFoamIntegrate::check_bubbles()
 {
   host_reads();
-  FoamTotals mine;
-  enum { MEMBERS, OTHERS };    // OTHERS: with a radius
+  struct Checked {
+    FoamMax bad_radius, bad_place;    // IDs
+    FoamSum bubbles, others;          // others: with a radius
+    void join(const Checked &other)
+    {
+      bad_radius.join(other.bad_radius);
+      bad_place.join(other.bad_place);
+      bubbles.join(other.bubbles);
+      others.join(other.others);
+    }
+  } mine;
   for (int i = 0; i < atom->nlocal; i++) {
     const double R = atom->radius[i], *const x = atom->x[i];
     if (!is_bubble(i)) {
-      if (R > 0.0) mine.sum[OTHERS] += 1.0;
+      if (R > 0.0) mine.others += 1.0;
       continue;
     }
-    mine.sum[MEMBERS] += 1.0;
-    if (!(R > 0.0) || !std::isfinite(R)) mine.max[0] = MAX(mine.max[0], double(atom->tag[i]));
-    if (!std::isfinite(x[0] + x[1] + x[2])) mine.max[1] = MAX(mine.max[1], double(atom->tag[i]));
+    mine.bubbles += 1.0;
+    if (!(R > 0.0) || !std::isfinite(R)) mine.bad_radius.raise(atom->tag[i]);
+    if (!std::isfinite(x[0] + x[1] + x[2])) mine.bad_place.raise(atom->tag[i]);
   }
-  const FoamTotals bad = reduce(mine);
-  if (bad.max[0] > 0.0)
+  const Checked all = foam_reduce(mine, world);
+  if (all.bad_radius > 0.0)
     error->all(FLERR,
                "Fix {}: the radius of bubble {:.0f} is zero, negative or not a number: "
                "set its diameter or delete it",
-               style, bad.max[0]);
-  if (bad.max[1] > 0.0)
-    error->all(FLERR, "Fix {}: Non-numeric atom coords of bubble {:.0f}", style, bad.max[1]);
-  if (igroup != 0 && bad.sum[MEMBERS] == 0.0)
+               style, double(all.bad_radius));
+  if (all.bad_place > 0.0)
+    error->all(FLERR, "Fix {}: Non-numeric atom coords of bubble {:.0f}", style, double(all.bad_place));
+  if (igroup != 0 && all.bubbles == 0.0)
     error->all(FLERR, "Fix {}: no particle is in group {}, so there is no bubble", style,
                group->names[igroup]);
-  if (bad.sum[OTHERS] > 0.0 && !others_told && comm->me == 0)
+  if (all.others > 0.0 && !others_told && comm->me == 0)
     utils::logmesg(lmp,
                    "Fix {}: {:.0f} particles with a radius are not in group {}: bubbles feel their "
                    "forces, but exchange no gas with them and do not follow them\n",
-                   style, bad.sum[OTHERS], group->names[igroup]);
+                   style, double(all.others), group->names[igroup]);
   others_told = true;
 
   if (pair->neighbor_drag && domain->deform_vremap && force->newton_pair && !pair->kokkosable)
@@ -123,34 +132,37 @@ void FixFoamIntegrate::check_bubbles()
 void FixFoamIntegrate::setup_post_neighbor()
 {
   post_neighbor();
-  give_lags();
+  give_lag();
 }
 
-// The forces that LAMMPS computes before a run are those with which the last run ended, if
-// neighbor drag takes the same velocities as given.  Velocities that a command has set stay.
-
-void FixFoamIntegrate::give_lags()
+void FixFoamIntegrate::give_lag()
 {
-  lags_given = true;
-  if (!lagged()) return;
+  lag_given = true;
+  if (!lag.active) return;
   host_reads();
-  double *const *const v = atom->v;
-  if (have_lags != 0.0)
-    for (int i = 0; i < atom->nlocal; i++) {
-      bool same = is_bubble(i);
-      for (int k = 0; k < 3; k++) same = same && v[i][k] == lags[LASTX + k][i];
-      if (same)
-        for (int k = 0; k < 3; k++) v[i][k] = lags[LAGX + k][i];
-    }
+  lag.give({atom->mask, groupbit});
   host_wrote();
   comm->forward_comm();
 }
+
+// how far rates are from those that are known, and how large they are
+
+struct FixFoamIntegrate::ChangeOfRates {
+  FoamMax of_v, v, of_qdot, qdot;
+  void join(const ChangeOfRates &other)
+  {
+    of_v.join(other.of_v);
+    v.join(other.v);
+    of_qdot.join(other.of_qdot);
+    qdot.join(other.qdot);
+  }
+};
 
 void FixFoamIntegrate::setup(int)
 {
   out.begin_run();
   list.outlisted = 0;
-  accepted_then = accepted;
+  accepted_then = driver.accepted;
   update->update_time();
   atime_start = update->atime;
 
@@ -161,15 +173,15 @@ void FixFoamIntegrate::setup(int)
 
   const double rho = gas ? gas->critical_radius() : 0.0;
   std::vector<double> f_so_far;
-  if (modify->n_post_force_any || !lags_given) {
+  if (modify->n_post_force_any || !lag_given) {
     host_reads();
     const size_t n = 3 * size_t(atom->nlocal + (force->newton ? atom->nghost : 0));
     if (n) f_so_far.assign(&atom->f[0][0], &atom->f[0][0] + n);
-    if (!lags_given) give_lags();
+    if (!lag_given) give_lag();
     evaluate(0.0);
   } else
     evaluations++;
-  lags_given = false;
+  lag_given = false;
 
   // The history of steps is good for as long as the state is the one that it led to: if a
   // command has changed the foam, the rates are no longer those at the end of the last run.
@@ -177,19 +189,19 @@ void FixFoamIntegrate::setup(int)
   // its velocities with neighbor drag do not settle, and so tell nothing.
 
   const double number = bubbles();
-  const FoamTotals change =
+  const ChangeOfRates change =
       Foam::with_dimension(dim, [&]<int D>() { return change_of_rates<D>(); });
   constexpr double SAME = 1.0e-6;    // well above rounding, well below any change of interest
-  double v_same = SAME * change.max[1], qdot_same = SAME * change.max[3];
+  double v_same = SAME * change.v, qdot_same = SAME * change.qdot;
   if (!evaluates_again()) {
-    double tolerance = 10.0 * control.tolerance;
+    double tolerance = 10.0 * driver.control.tolerance;
     if (norm == Foam::Norm::RMS) tolerance *= std::sqrt((dim + 1) * number);    // of one bubble
     v_same += pair->neighbor_drag ? INFINITY : tolerance * pair->rin / natural_time();
-    qdot_same += std::sqrt(tolerance) * change.max[3];    // contact area ~ sqrt(overlap)
+    qdot_same += std::sqrt(tolerance) * change.qdot;    // contact area ~ sqrt(overlap)
   }
   const double exchange =
       gas ? gas->K * std::pow(pair->rin, variable == Foam::Variable::RADIUS ? -1 : dim - 2) : 0.0;
-  if (grows() && change.max[3] <= 1.0e-12 * exchange && number > 1.0 && !idle_told) {
+  if (grows() && change.qdot <= 1.0e-12 * exchange && number > 1.0 && !idle_told) {
     idle_told = true;
     if (comm->me == 0)
       error->warning(
@@ -198,12 +210,13 @@ void FixFoamIntegrate::setup(int)
           "are equal, or no bubbles touch and there is no exchange through the liquid",
           style);
   }
-  if (change.max[0] > v_same || change.max[2] > qdot_same || bubbles_last != number) h_before = 0.0;
+  if (change.of_v > v_same || change.of_qdot > qdot_same || bubbles_last != number)
+    driver.h_before = 0.0;
 
   if (gas) gas->changed = false;
-  if (evaluates_again() || h_before == 0.0) {
+  if (evaluates_again() || driver.h_before == 0.0) {
     take_rates(false);
-    have_lags = lagged();
+    lag.known = lag.active;
   } else {
     evaluations--;    // only looked at: the rates of the last run go on
     if (gas) gas->keep_critical_radius(rho);
@@ -218,7 +231,8 @@ void FixFoamIntegrate::setup(int)
 
   // after read_restart the timestep is that of the last step, if the file was written in a run
 
-  if (dt_given == 0.0 || update->dt != h_last) dt_given = update->dt;
+  if (dt_given == 0.0 || update->dt != driver.h_last) dt_given = update->dt;
+  double &h = driver.h;
   if (h == 0.0) h = dt_start > 0.0 ? dt_start : update->dt;
   if (!(h > 0.0))
     error->all(FLERR,
@@ -234,28 +248,26 @@ void FixFoamIntegrate::setup(int)
   }
 }
 
-// largest change of a velocity, largest velocity; the same of qdot
-
-template <int D> FoamTotals FixFoamIntegrate::change_of_rates()
+template <int D> FixFoamIntegrate::ChangeOfRates FixFoamIntegrate::change_of_rates()
 {
   host_reads();
   FoamHost here(lmp, groupbit);
   const auto f = rates<D>(here);
-  const bool last = lagged() && have_lags != 0.0;
-  FoamTotals mine;
+  const bool last = lag.active && lag.known != 0.0;
+  ChangeOfRates mine;
   for (int i = 0; i < atom->nlocal; i++) {
     if (!is_bubble(i)) continue;
     for (int k = 0; k < D; k++) {
-      const double now = f.velocity(i, k);
-      const double then = last ? lags[LASTX + k][i] : atom->v[i][k];
-      mine.max[0] = MAX(mine.max[0], std::fabs(now - then));
-      mine.max[1] = MAX(mine.max[1], std::fabs(now));
+      const double now = f.drag.velocity(i, k);
+      const double then = last ? lag.last(k, i) : atom->v[i][k];
+      mine.of_v.raise(std::fabs(now - then));
+      mine.v.raise(std::fabs(now));
     }
     const double now = gas ? f.qdot(i) : 0.0;
-    mine.max[2] = MAX(mine.max[2], std::fabs(now - columns[QDOT][i]));
-    mine.max[3] = MAX(mine.max[3], std::fabs(now));
+    mine.of_qdot.raise(std::fabs(now - columns[QDOT][i]));
+    mine.qdot.raise(std::fabs(now));
   }
-  return reduce(mine);
+  return foam_reduce(mine, world);
 }
 
 // fix foam/coarsen changes radii, and those of ghosts have to follow: atom_style sphere 1
@@ -269,14 +281,14 @@ void FixFoamIntegrate::check_ghosts()
   host_wrote();
   comm->forward_comm();
   host_reads();
-  FoamTotals mine;
-  for (int i = nlocal; i < nall; i++) mine.sum[atom->radius[i] < 0.0 ? 0 : 1] += 1.0;
-  const FoamTotals all = reduce(mine);
-  if (all.sum[0] > 0.0)
+  bigint mine[2] = {0, 0}, all[2];    // ghosts without and with their radii
+  for (int i = nlocal; i < nall; i++) mine[atom->radius[i] < 0.0 ? 0 : 1]++;
+  MPI_Allreduce(mine, all, 2, MPI_LMP_BIGINT, MPI_SUM, world);
+  if (all[0] > 0)
     error->all(FLERR,
                "Fix foam/coarsen changes radii, which have to be communicated in every step: "
                "use atom_style sphere 1");
-  ghosts_checked = all.sum[1] > 0.0;    // else there were none to look at
+  ghosts_checked = all[1] > 0;    // else there were none to look at
 }
 
 double FixFoamIntegrate::count_bubbles()
@@ -301,15 +313,15 @@ void FixFoamIntegrate::take_population()
   if (!gas) return;
   using namespace Foam;
   host_reads();
-  FoamTotals mine;
+  Judgement mine;
   const double *const q = columns[Q];
   for (int i = 0; i < atom->nlocal; i++) {
     if (!is_bubble(i)) continue;
-    mine.sum[BUBBLES] += 1.0;
-    mine.sum[RADII] += atom->radius[i];
-    mine.sum[GAS] += with_dimension(dim, [&]<int D>() { return gas_content<D>(variable, q[i]); });
-    mine.max[LARGEST] = MAX(mine.max[LARGEST], atom->radius[i]);
+    mine.bubbles += 1.0;
+    mine.radii += atom->radius[i];
+    mine.gas += with_dimension(dim, [&]<int D>() { return gas_content<D>(variable, q[i]); });
+    mine.radius_max.raise(atom->radius[i]);
   }
-  const FoamTotals all = reduce(mine);
-  gas->population = {all.sum[BUBBLES], all.sum[RADII], all.sum[GAS], all.max[LARGEST]};
+  const Judgement all = reduce(mine);
+  gas->population = {all.bubbles, all.radii, all.gas, all.radius_max};
 }

@@ -60,8 +60,7 @@ int FixFoamIntegrate::pack_restart(int i, double *buf)
 {
   // in mid-run the last velocities are the present ones
 
-  if (lags.in_use() && update->whichflag == 1)
-    for (int k = 0; k < 3; k++) lags[LASTX + k][i] = atom->v[i][k];
+  if (lag.columns.in_use() && update->whichflag == 1) lag.keep_last(i);
   buf[0] = size_restart(i);
   return 1 + pack_exchange(i, buf + 1);
 }
@@ -72,12 +71,13 @@ void FixFoamIntegrate::unpack_restart(int i, int nth)
   for (int m = 0; m < nth; m++) extra += static_cast<int>(*extra);
   const int count = static_cast<int>(*extra++) - 1;
   extra += columns.unpack(i, extra);
-  const int rest = count - columns.active();    // lags, low or both, whichever was in use
-  if (rest >= lags.capacity()) {
-    if (!lags.in_use()) lags.use(atom->nmax);
-    extra += lags.unpack(i, extra);
+  const int rest = count - columns.active();    // lag, residuals or both, whichever was in use
+  if (rest >= lag.columns.capacity()) {
+    if (!lag.columns.in_use()) lag.columns.use(atom->nmax);
+    extra += lag.columns.unpack(i, extra);
   }
-  if (rest % lags.capacity() == low.capacity()) low.unpack(i, extra);    // if of use here, too
+  if (rest % lag.columns.capacity() == residuals.capacity())
+    residuals.unpack(i, extra);    // if of use here, too
 }
 
 int FixFoamIntegrate::size_restart(int)
@@ -94,16 +94,16 @@ int FixFoamIntegrate::maxsize_restart()
 
 std::vector<double *> FixFoamIntegrate::progress()
 {
-  return {&time,
-          &h,
-          &h_before,
-          &h_last,
-          &accepted,
-          &rejected,
+  return {&driver.time,
+          &driver.h,
+          &driver.h_before,
+          &driver.h_last,
+          &driver.accepted,
+          &driver.rejected,
           &evaluations,
-          &error_last,
+          &driver.error_last,
           &bubbles_last,
-          &have_lags,
+          &lag.known,
           &dt_given,
           &record.rin,
           &record.ain,
@@ -131,7 +131,7 @@ void FixFoamIntegrate::restart(char *buf)
 
   // a file that is written in a run has the step just taken for the timestep
 
-  if (dt_given > 0.0 && update->dt == h_last) set_timestep(dt_given);
+  if (dt_given > 0.0 && update->dt == driver.h_last) set_timestep(dt_given);
 }
 
 double FixFoamIntegrate::memory_usage()

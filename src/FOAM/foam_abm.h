@@ -10,63 +10,64 @@
 #ifndef LMP_FOAM_ABM_H
 #define LMP_FOAM_ABM_H
 
-#include "foam_state.h"
+#include "foam_driver.h"
+#include "foam_scheme.h"
+#include "foam_stepper.h"
 
-// Functors of fix foam/abm: predictor and corrector, see foam_stepper.h
+// Adams-Bashforth-Moulton steps of any equations (foam_scheme.h); coefficients: foam_stepper.h
 
 namespace Foam {
 
-template <int D, class B> struct Predict {
+template <class Fields> struct Predict {
   static constexpr const char *NAME = "foam: predict";
-  State<B> s;
+  Fields y;
   Predictor p;
   bool first;    // attempt of this step
   FOAM_FUNCTION void operator()(int i) const
   {
-    if (first) keep_start<D>(s, i);
-    for (int k = 0; k < D; k++)
-      s.b.put(i, k, predict(s.x_start[k][i], s.v(i, k), s.v_before[k][i], p));
-    if (s.grows) put_gas<D>(s, i, predict(s.q_start[i], s.qdot[i], s.qdot_before[i], p));
+    if (first) y.keep_start(i);
+    y.each([&](const auto &field) {
+      field.put(i, predict(field.start(i), field.rate(i), field.before(i), p));
+    });
   }
 };
 
-// The error of a component is the distance of corrector and predictor
+// The error of a field is the distance of corrector and predictor
 
-template <int D, class B> struct Correct {
+template <class Fields, class Rates, class Judge> struct Correct {
   static constexpr const char *NAME = "foam: correct and judge";
-  State<B> s;
-  Rates<D, B> rates;
-  Judge<D, B> judge;
-  double step;
-  FOAM_FUNCTION void operator()(int i, FoamTotals &all) const
+  Fields y;
+  Rates rates;
+  Judge judge;
+  Work<Fields> next;    // f_{n+1}, if the rates of the predicted state are taken for it
+  bool keeps;
+  double h;
+  FOAM_FUNCTION void operator()(int i, typename Judge::Totals &all) const
   {
-    double largest = 0.0, squares = 0.0;
-    double corrected[D];
-    const double moved = from_listed<D>(s, i, s.b.radius(i));
-    for (int k = 0; k < D; k++) {
-      const double predicted = s.b.place(i, k);
-      const double velocity = rates.velocity(i, k);
-      corrected[k] = correct(s.x_start[k][i], s.v(i, k), velocity, step);
-      if (s.qdot_next) s.v_next[k][i] = velocity;
-      const double error = std::fabs(corrected[k] - predicted);
-      if (error > largest) largest = error;
-      squares += error * error;
-    }
-    if (s.grows) {
-      const double predicted = s.b.radius(i);
-      const double qdot = rates.qdot(i);
-      s.q[i] = correct(s.q_start[i], s.qdot[i], qdot, step);
-      if (s.qdot_next) s.qdot_next[i] = qdot;
-      const double R = radius_of<D>(s.variable, s.q[i]);
-      s.b.radius(i) = R;
-      const double error = std::fabs(R - predicted);
-      if (error > largest) largest = error;
-      squares += error * error;
-    }
-    for (int k = 0; k < D; k++) s.b.put(i, k, corrected[k]);
-    judge(i, largest, squares, moved, all);
+    const double reach = y.reach(i);
+    double f[Fields::MOST];
+    rates(i, f);
+    StepError error;
+    y.each([&](const auto &field) {
+      const int n = field.number;
+      const double corrected = correct(field.start(i), field.rate(i), f[n], h);
+      if (keeps) next.field[n][i] = f[n];
+      error.add(field.measure(i, corrected - field.value(i)));
+      field.put(i, corrected);
+    });
+    judge(i, error, reach, all);
   }
 };
+
+template <class System> auto attempt_abm(System &system, const Driver &driver, double h, bool first)
+{
+  const Scheme scheme = driver.control.scheme;
+  system.for_each(Predict{system.fields(), predictor(scheme, h, driver.h_before), first});
+  system.evaluate(h);
+  const Correct candidate{system.fields(), system.rates(), system.judge(),
+                          system.work(),   scheme == Scheme::SOURCE, h};
+  return system.template totals<typename System::Totals>(candidate);
+}
 
 }    // namespace Foam
 

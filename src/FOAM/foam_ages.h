@@ -15,6 +15,23 @@
 
 // How long contacts have lasted: functors of fix foam/contacts
 
+namespace LAMMPS_NS {
+
+struct FoamTotals {
+  static constexpr int SUMS = 7, MAXIMA = 4;
+  double sum[SUMS] = {};
+  double max[MAXIMA] = {};
+
+  FOAM_FUNCTION void join(const FoamTotals &other)
+  {
+    for (int m = 0; m < SUMS; m++) sum[m] += other.sum[m];
+    for (int m = 0; m < MAXIMA; m++)
+      if (other.max[m] > max[m]) max[m] = other.max[m];
+  }
+};
+
+}    // namespace LAMMPS_NS
+
 namespace Foam {
 
 enum { AGE, AGE_VALUES };                                 // of a contact

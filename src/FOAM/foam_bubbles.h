@@ -11,7 +11,7 @@
 #define LMP_FOAM_BUBBLES_H
 
 #include "foam_physics.h"
-#include "foam_reduce.h"
+#include "foam_totals.h"
 #include "lmptype.h"
 
 // Functors of loops over bubbles are written once for base and KOKKOS styles: each is called for one
@@ -22,7 +22,8 @@
 
 namespace Foam {
 
-using LAMMPS_NS::FoamTotals;
+using LAMMPS_NS::FoamMax;
+using LAMMPS_NS::FoamSum;
 
 template <class T> struct Rows {    // [n][3]
   T *first;
@@ -87,21 +88,13 @@ struct ContactSums {
   }
 };
 
-// Four sums over all bubbles of all ranks. On a device they may stay there, so that the host
-// need not wait for them: then known is not.
+// Sums over all bubbles of all ranks. On a device they may stay there, so that the host need not wait for
+// them: then known is not.
 
-struct Sums {
-  double known[4] = {};
-  const double *elsewhere = nullptr;
-  FOAM_FUNCTION double operator[](int m) const { return elsewhere ? elsewhere[m] : known[m]; }
-};
-
-struct SumsOfOne {    // what one bubble adds to them
-  double sum[4] = {};
-  FOAM_FUNCTION void join(const SumsOfOne &other)
-  {
-    for (int m = 0; m < 4; m++) sum[m] += other.sum[m];
-  }
+template <class Totals> struct Sums {
+  Totals known{};
+  const Totals *elsewhere = nullptr;
+  FOAM_FUNCTION const Totals &operator()() const { return elsewhere ? *elsewhere : known; }
 };
 
 }    // namespace Foam

@@ -19,19 +19,30 @@ namespace Foam {
 // Rate of gas content: Vdot_i = K sum_j A_ij (1/R_j - 1/R_i) + c w_i (1/rho - 1/R_i),
 // see foam_physics.h
 
-// What a bubble adds to the sums over all bubbles that the second part takes: their number,
-// surface, weight and weight / R
+// The sums over all bubbles that the second part takes
 
-template <int D>
-FOAM_FUNCTION void add_free_surface(LiquidLaw law, double R, double contact_area, SumsOfOne &all)
-{
-  if (!(R > 0.0)) return;
-  const double A = surface<D>(R), w = liquid_weight(law, free_area(A, contact_area), R);
-  all.sum[0] += 1.0;
-  all.sum[1] += A;
-  all.sum[2] += w;
-  all.sum[3] += w / R;
-}
+struct FreeSurface {
+  static constexpr int SLOT = 0;    // of the sums that stay on a device
+  FoamSum bubbles, surface, weight, weight_over_R;
+
+  template <int D> FOAM_FUNCTION void add(LiquidLaw law, double R, double contact_area)
+  {
+    if (!(R > 0.0)) return;
+    const double A = Foam::surface<D>(R), w = liquid_weight(law, free_area(A, contact_area), R);
+    bubbles += 1.0;
+    surface += A;
+    weight += w;
+    weight_over_R += w / R;
+  }
+  FOAM_FUNCTION void join(const FreeSurface &other)
+  {
+    bubbles.join(other.bubbles);
+    surface.join(other.surface);
+    weight.join(other.weight);
+    weight_over_R.join(other.weight_over_R);
+  }
+  FOAM_FUNCTION double inverse_rho() const { return inverse_critical_radius(weight, weight_over_R); }
+};
 
 template <int D> struct Exchange {
   double K = 0.0, kappa = 0.0;
@@ -48,29 +59,29 @@ template <int D> struct Exchange {
     double coefficient = 0.0, inverse_rho = 0.0;
   };
 
-  FOAM_FUNCTION Liquid of(const Sums &all) const
+  FOAM_FUNCTION Liquid of(const FreeSurface &all) const
   {
-    return {liquid_coefficient(law, kappa, K, Rin, Ain, all[1] / all[0]),
-            inverse_critical_radius(all[2], all[3])};
+    return {liquid_coefficient(law, kappa, K, Rin, Ain, all.surface / all.bubbles),
+            all.inverse_rho()};
   }
-  void take(const Sums &all)
+  void use(const Sums<FreeSurface> &all)
   {
     sums = all;
-    if (!all.elsewhere) liquid = of(all);
+    if (!all.elsewhere) liquid = of(all.known);
   }
 
   FOAM_FUNCTION Split operator()(int i, double R) const
   {
     if (!(R > 0.0) || !(K > 0.0)) return {0.0, 0.0};
     Split split{film ? K * film[i] : 0.0, 0.0};
-    const Liquid l = sums.elsewhere ? of(sums) : liquid;
+    const Liquid l = sums.elsewhere ? of(sums()) : liquid;
     if (l.coefficient > 0.0)
       split.liquid = liquid_exchange(l.coefficient, weight(i, R), l.inverse_rho, R);
     return split;
   }
 
   Liquid liquid;    // if the sums are known
-  Sums sums;
+  Sums<FreeSurface> sums;
 
  private:
   FOAM_FUNCTION double weight(int i, double R) const
@@ -79,15 +90,14 @@ template <int D> struct Exchange {
   }
 };
 
-template <int D, class B> struct LiquidSums {
+template <int D, class B> struct AddFreeSurface {
   static constexpr const char *NAME = "foam: sums of free surface";
-  static constexpr int SLOT = 0;    // of the sums that stay on a device
   B b;
   LiquidLaw law;
   const double *area;
-  FOAM_FUNCTION void operator()(int i, SumsOfOne &all) const
+  FOAM_FUNCTION void operator()(int i, FreeSurface &all) const
   {
-    add_free_surface<D>(law, b.radius(i), area[i], all);
+    all.template add<D>(law, b.radius(i), area[i]);
   }
 };
 

@@ -12,6 +12,7 @@
 
 #include "foam_columns.h"
 #include "foam_bubbles.h"
+#include "foam_reduce.h"
 
 #include "atom.h"
 #include "pointers.h"
@@ -49,19 +50,17 @@ class FoamHost : protected Pointers {
     for (int i = 0; i < n; i++) body(i);
   }
   template <class Body> void for_each(int n, const Body &body) const { over_bubbles(n, body); }
-  template <class Body> FoamTotals totals(int n, const Body &body) const    // of this rank
+  template <class Totals, class Body>
+  Totals totals(int n, const Body &body) const    // of this rank
   {
-    FoamTotals mine;
+    Totals mine;
     over_bubbles(n, [&](int i) { body(i, mine); });
     return mine;
   }
-  template <class Body> Foam::Sums sums(int n, const Body &body) const    // of all ranks
+  template <class Totals, class Body>
+  Foam::Sums<Totals> sums(int n, const Body &body) const    // of all ranks
   {
-    Foam::SumsOfOne mine;
-    over_bubbles(n, [&](int i) { body(i, mine); });
-    Foam::Sums all;
-    MPI_Allreduce(mine.sum, all.known, 4, MPI_DOUBLE, MPI_SUM, world);
-    return all;
+    return {foam_reduce(totals<Totals>(n, body), world)};
   }
 
   int groupbit;    // of the bubbles

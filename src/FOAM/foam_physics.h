@@ -58,6 +58,11 @@ template <int D> FOAM_FUNCTION double power_of_radius(double R)
   return D == 2 ? R * R : R * R * R;
 }
 
+template <int D> FOAM_FUNCTION double slope_of_power(double R)    // d R^D / dR
+{
+  return D * (D == 2 ? R : R * R);
+}
+
 template <int D> FOAM_FUNCTION double radius_of_power(double q)
 {
   if (!(q > 0.0)) return q == q ? 0.0 : q;    // used up: no radius; NaN stays NaN

@@ -10,34 +10,22 @@
 #ifndef LMP_FOAM_REDUCE_H
 #define LMP_FOAM_REDUCE_H
 
-#include "foam_physics.h"
+#include "foam_totals.h"
 
 #include <mpi.h>
+#include <type_traits>
 
 namespace LAMMPS_NS {
 
-// Sums and maxima over bubbles: join() makes one of two, on the host and on a device, and
-// FoamReduce over all ranks, in one MPI_Allreduce instead of two.
+// Totals (foam_totals.h) over all ranks, in one MPI_Allreduce
 
-struct FoamTotals {
-  static constexpr int SUMS = 7, MAXIMA = 4;
-  double sum[SUMS] = {};
-  double max[MAXIMA] = {};
-
-  FOAM_FUNCTION void join(const FoamTotals &other)
-  {
-    for (int m = 0; m < SUMS; m++) sum[m] += other.sum[m];
-    for (int m = 0; m < MAXIMA; m++)
-      if (other.max[m] > max[m]) max[m] = other.max[m];
-  }
-};
-
-class FoamReduce {
+template <class Totals> class FoamReduce {
  public:
   explicit FoamReduce(MPI_Comm comm) : world(comm)
   {
+    static_assert(std::is_standard_layout_v<Totals> && sizeof(Totals) % sizeof(double) == 0);
     MPI_Comm_size(world, &ranks);
-    MPI_Type_contiguous(sizeof(FoamTotals) / sizeof(double), MPI_DOUBLE, &type);
+    MPI_Type_contiguous(sizeof(Totals) / sizeof(double), MPI_DOUBLE, &type);
     MPI_Type_commit(&type);
     MPI_Op_create(&combine, 1, &op);
   }
@@ -49,10 +37,10 @@ class FoamReduce {
     MPI_Type_free(&type);
   }
 
-  FoamTotals operator()(FoamTotals mine) const
+  Totals operator()(Totals mine) const
   {
     if (ranks == 1) return mine;
-    FoamTotals all;
+    Totals all;
     MPI_Allreduce(&mine, &all, 1, type, op, world);
     return all;
   }
@@ -65,11 +53,18 @@ class FoamReduce {
 
   static void combine(void *in, void *inout, int *n, MPI_Datatype *)
   {
-    const auto *a = static_cast<const FoamTotals *>(in);
-    auto *b = static_cast<FoamTotals *>(inout);
+    const auto *a = static_cast<const Totals *>(in);
+    auto *b = static_cast<Totals *>(inout);
     for (int k = 0; k < *n; k++) b[k].join(a[k]);
   }
 };
+
+// the same, once in a while
+
+template <class Totals> Totals foam_reduce(const Totals &mine, MPI_Comm comm)
+{
+  return FoamReduce<Totals>(comm)(mine);
+}
 
 }    // namespace LAMMPS_NS
 

@@ -11,92 +11,133 @@
 #define LMP_FOAM_RKC_H
 
 #include "foam_chebyshev.h"
-#include "foam_state.h"
+#include "foam_driver.h"
+#include "foam_scheme.h"
+#include "foam_spectral.h"
 
-// Functors of fix foam/rkc: the stages of a Runge-Kutta-Chebyshev step, see foam_chebyshev.h
+// Runge-Kutta-Chebyshev steps of any equations (foam_scheme.h); coefficients: foam_chebyshev.h
 
 namespace Foam {
 
-// Between two stages x, q and radius in LAMMPS and State are Y_{j-1}, these Y_{j-2}; and how far
-// the evaluated stages were from the listed state. With neighbor drag l, in LAMMPS' v, follows the
-// velocities from stage to stage.
+// Between two stages y is Y_{j-1}, work has Y_{j-2}, and how far the evaluated stages were from where evaluations
+// were prepared for
 
-struct Stages {
-  double *x_before[3], *q_before, *moved;
-};
-
-template <int D, class B> struct FirstStage {
+template <class Fields> struct FirstStage {
   static constexpr const char *NAME = "foam: first stage";
-  State<B> s;
-  Stages y;
+  Fields y;
+  Work<Fields> work;
   double step;    // m_1 h
   bool first;     // attempt of this step
   FOAM_FUNCTION void operator()(int i) const
   {
-    if (first) keep_start<D>(s, i);
-    for (int k = 0; k < D; k++) {
-      y.x_before[k][i] = s.x_start[k][i];
-      s.b.put(i, k, s.x_start[k][i] + step * s.v(i, k));
-      if (s.v_start[0]) s.b.v(i, k) = lagged_velocity(s.v_start[k][i], s.lag[k][i]);
-    }
-    if (s.grows) {
-      y.q_before[i] = s.q_start[i];
-      put_gas<D>(s, i, s.q_start[i] + step * s.qdot[i]);
-    }
-    y.moved[i] = 0.0;
+    if (first)
+      y.keep_start(i);
+    else
+      y.rewind(i);
+    y.each([&](const auto &field) {
+      work.field[field.number][i] = field.start(i);
+      field.put(i, field.start(i) + step * field.rate(i));
+    });
+    work.bubble[i] = 0.0;
   }
 };
 
-template <int D, class B> struct NextStage {
+template <class Fields, class Rates> struct NextStage {
   static constexpr const char *NAME = "foam: next stage";
-  State<B> s;
-  Stages y;
-  Rates<D, B> rates;    // F_{j-1}
+  Fields y;
+  Work<Fields> work;
+  Rates rates;    // F_{j-1}
   Chebyshev::Stage c;
   double h;
   FOAM_FUNCTION void operator()(int i) const
   {
-    const double moved = from_listed<D>(s, i, s.b.radius(i));
-    if (moved > y.moved[i]) y.moved[i] = moved;
-    const double qdot = s.grows ? rates.qdot(i) : 0.0;
-    for (int k = 0; k < D; k++) {
-      const double last = s.b.place(i, k), v = rates.velocity(i, k);
-      s.b.put(i, k, advance(s.x_start[k][i], last, y.x_before[k][i], v, s.v(i, k), h, c));
-      y.x_before[k][i] = last;
-      if (s.v_start[0]) s.b.v(i, k) = lagged_velocity(v, s.b.v(i, k));
-    }
-    if (s.grows) {
-      const double last = s.q[i];
-      put_gas<D>(s, i, advance(s.q_start[i], last, y.q_before[i], qdot, s.qdot[i], h, c));
-      y.q_before[i] = last;
-    }
+    go_on(i, [](const auto &, double) {});
+  }
+
+  // look(field, f): at Y_{j-1} and F_{j-1}, before they are gone
+
+  template <class Look> FOAM_FUNCTION void go_on(int i, Look &&look) const
+  {
+    const double reach = y.reach(i);
+    if (reach > work.bubble[i]) work.bubble[i] = reach;
+    double f[Fields::MOST];
+    rates(i, f);
+    y.each([&](const auto &field) {
+      const int n = field.number;
+      look(field, f[n]);
+      const double last = field.value(i);
+      field.put(i, advance(field.start(i), last, work.field[n][i], f[n], field.rate(i), h, c));
+      work.field[n][i] = last;
+    });
+    y.after_stage(i, f);
   }
 };
 
-template <int D, class B> struct LastStage {
+template <class Fields, class Rates, class Judge> struct LastStage {
   static constexpr const char *NAME = "foam: last stage and judge";
-  NextStage<D, B> next;
-  Judge<D, B> judge;
+  NextStage<Fields, Rates> stage;
+  Judge judge;
   double place;    // c_{s-1}
-  FOAM_FUNCTION void operator()(int i, FoamTotals &all) const
+  FOAM_FUNCTION void operator()(int i, typename Judge::Totals &all) const
   {
-    const State<B> &s = next.s;
-    double largest = 0.0, squares = 0.0;
-    auto add = [&](double error) {
-      error = std::fabs(error);
-      if (error > largest) largest = error;
-      squares += error * error;
+    StepError error;
+    stage.go_on(i, [&](const auto &field, double f) {
+      const double of_field =
+          stage_error(field.start(i), field.value(i), f, field.rate(i), stage.h, place);
+      error.add(field.measure(i, of_field));
+    });
+    judge(i, error, stage.work.bubble[i], all);
+  }
+};
+
+struct RungeKuttaChebyshev {
+  int stages_given = 0;    // 0: as many as a step needs
+  double stages_last = 0.0;
+  SpectralRadius spectral;
+
+  // Longer steps are not stable.  One that turns out too long is shortened by the error that it has.
+
+  double stable_step() const
+  {
+    const double largest = spectral.bound();
+    const int most = stages_given ? stages_given : Chebyshev::MOST;
+    return largest > 0.0 ? Chebyshev::stable(most) / largest : INFINITY;
+  }
+
+  template <class System>
+  typename System::Totals attempt(System &system, const Driver &driver, double h, bool first)
+  {
+    // F_0 is known from the last step, unless since then y has moved by itself, or what others do to f has
+    // changed otherwise than with time: what they change between F_0 and the stages would pass for an error
+    // that no step is short enough for
+
+    bool kept = !first, compare = first;
+    auto keep_start = [&] {
+      if (!kept) system.for_each(KeepStart{system.fields()});
+      kept = true;
     };
-    for (int k = 0; k < D; k++)
-      add(stage_error(s.x_start[k][i], s.b.place(i, k), next.rates.velocity(i, k), s.v(i, k),
-                      next.h, place));
-    if (s.grows) {
-      const double error =
-          stage_error(s.q_start[i], s.q[i], next.rates.qdot(i), s.qdot[i], next.h, place);
-      add(radius_of<D>(s.variable, s.q[i] + error) - s.b.radius(i));
+    if (first && spectral.start_is_outdated(system)) {
+      keep_start();
+      spectral.renew_start(system, driver);
+      compare = false;
     }
-    next(i);
-    judge(i, largest, squares, next.y.moved[i], all);
+    if (spectral.estimate_due(driver)) {
+      keep_start();
+      spectral.estimate(system, driver, compare);
+    }
+
+    const Chebyshev c(stages_given ? stages_given : Chebyshev::count_for(h * spectral.bound()));
+    const int count = c.count();
+    stages_last = count;
+    system.for_each(FirstStage{system.fields(), system.work(), h * c[1].rate_start, !kept});
+    for (int j = 2; j < count; j++) {
+      system.evaluate(c[j - 1].place * h);
+      system.for_each(NextStage{system.fields(), system.work(), system.rates(), c[j], h});
+    }
+    const double place = c[count - 1].place;
+    system.evaluate(place * h);
+    const NextStage last{system.fields(), system.work(), system.rates(), c[count], h};
+    return system.template totals<typename System::Totals>(LastStage{last, system.judge(), place});
   }
 };
 

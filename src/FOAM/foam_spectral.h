@@ -10,53 +10,56 @@
 #ifndef LMP_FOAM_SPECTRAL_H
 #define LMP_FOAM_SPECTRAL_H
 
-#include "foam_state.h"
+#include "foam_driver.h"
+#include "foam_scheme.h"
+#include "foam_totals.h"
 
-// The spectral radius of the Jacobian by power iteration
+#include <algorithm>
+#include <cmath>
+
+// The spectral radius of the Jacobian of any equations (foam_scheme.h) by power iteration: a small step in a
+// direction d, the change of rates is the next d.  Directions lie where other schemes have f_{n-1}.
 
 namespace Foam {
 
-// The spectral radius of the Jacobian by power iteration: a small step in a direction d, the
-// change of rates is the next d
+using LAMMPS_NS::FoamMax;
+using LAMMPS_NS::FoamSum;
 
-enum DirectionSum { DIRECTION };    // sum of squares, q in units of length
-enum DirectionMax { COMPONENT };
-
-template <class B> struct Direction {
-  State<B> s;       // in the place of f_{n-1}
-  double q_unit;    // dq / dR at the mean radius
-
-  template <int D> FOAM_FUNCTION void measure(int i, FoamTotals &all) const
+struct DirectionTotals {    // in units of length
+  FoamSum squares;
+  FoamMax component;
+  FOAM_FUNCTION void add(double d)
   {
-    for (int k = 0; k < D; k++) add(s.v_before[k][i], all);
-    if (s.grows) add(s.qdot_before[i] / q_unit, all);
+    squares += d * d;
+    component.raise(std::fabs(d));
   }
-
-  FOAM_FUNCTION static void add(double d, FoamTotals &all)
+  FOAM_FUNCTION void join(const DirectionTotals &other)
   {
-    all.sum[DIRECTION] += d * d;
-    if (std::fabs(d) > all.max[COMPONENT]) all.max[COMPONENT] = std::fabs(d);
+    squares.join(other.squares);
+    component.join(other.component);
   }
 };
 
 // a first direction: any will do, the same on any number of ranks
 
-template <int D, class B> struct AnyDirection {
+template <class Fields> struct AnyDirection {
   static constexpr const char *NAME = "foam: any direction";
-  Direction<B> d;
-  FOAM_FUNCTION void operator()(int i, FoamTotals &all) const
+  Fields y;
+  FOAM_FUNCTION void operator()(int i, DirectionTotals &all) const
   {
-    const bool alive = d.s.b.radius(i) > 0.0;
-    for (int k = 0; k < D; k++) d.s.v_before[k][i] = alive ? number(i, k) : 0.0;
-    d.s.qdot_before[i] = alive && d.s.grows ? number(i, D) * d.q_unit : 0.0;
-    d.template measure<D>(i, all);
+    int n = 0;
+    y.each([&](const auto &field) {
+      field.before(i) = y.alive(i) ? number(y.seed(i), n) * field.unit() : 0.0;
+      all.add(field.before(i) / field.unit());
+      n++;
+    });
   }
 
  private:
-  FOAM_FUNCTION double number(int i, int k) const    // -1 ... 1
+  FOAM_FUNCTION static double number(double seed, int n)    // -1 ... 1
   {
     const double golden = 0.6180339887498949, root = 0.7548776662466927;
-    const double turns = golden * d.s.b.tag(i) + root * (k + 1);
+    const double turns = golden * seed + root * (n + 1);
     return 2.0 * (turns - std::floor(turns)) - 1.0;
   }
 };
@@ -64,101 +67,220 @@ template <int D, class B> struct AnyDirection {
 // The rates of a state that has become unstable are those of the mode that made it so: they join the
 // direction, as large as it is
 
-template <int D, class B> struct LargestRate {
+template <class Fields> struct LargestRate {
   static constexpr const char *NAME = "foam: largest rate";
-  Direction<B> d;
-  FOAM_FUNCTION void operator()(int i, FoamTotals &all) const
+  Fields y;
+  FOAM_FUNCTION void operator()(int i, FoamMax &all) const
   {
-    const State<B> &s = d.s;
-    for (int k = 0; k < D; k++) d.add(s.v(i, k), all);
-    if (s.grows) d.add(s.qdot[i] / d.q_unit, all);
+    y.each([&](const auto &field) { all.raise(std::fabs(field.rate(i) / field.unit())); });
   }
 };
 
-template <int D, class B> struct JoinRates {
+template <class Fields> struct JoinRates {
   static constexpr const char *NAME = "foam: join rates";
-  Direction<B> d;
+  Fields y;
   double factor;
-  FOAM_FUNCTION void operator()(int i, FoamTotals &all) const
+  FOAM_FUNCTION void operator()(int i, DirectionTotals &all) const
   {
-    const State<B> &s = d.s;
-    for (int k = 0; k < D; k++) s.v_before[k][i] += factor * s.v(i, k);
-    if (s.grows) s.qdot_before[i] += factor * s.qdot[i];
-    d.template measure<D>(i, all);
+    y.each([&](const auto &field) {
+      field.before(i) += factor * field.rate(i);
+      all.add(field.before(i) / field.unit());
+    });
   }
 };
 
-template <int D, class B> struct StepAside {
-  static constexpr const char *NAME = "foam: step aside";
-  State<B> s;
+template <class Fields> struct Displace {
+  static constexpr const char *NAME = "foam: displace";
+  Fields y;
   double amount;
   FOAM_FUNCTION void operator()(int i) const
   {
-    for (int k = 0; k < D; k++) s.b.put(i, k, s.x_start[k][i] + amount * s.v_before[k][i]);
-    if (s.grows) put_gas<D>(s, i, s.q_start[i] + amount * s.qdot_before[i]);
+    y.each([&](const auto &field) { field.put(i, field.start(i) + amount * field.before(i)); });
   }
 };
 
-template <int D, class B> struct TakeDirection {
+template <class Fields, class Rates> struct TakeDirection {
   static constexpr const char *NAME = "foam: take direction";
-  Direction<B> d;
-  Rates<D, B> rates;
-  double *v_there[3];    // velocities at the start, if they are not those of State
-  double amount;         // length of the step aside
-  FOAM_FUNCTION void operator()(int i, FoamTotals &all) const
+  Fields y;
+  Rates rates;
+  Work<Fields> there;    // rates at the start to compare with
+  bool elsewhere;        // they are in there; else f_n
+  double amount;         // length of the displacement
+  FOAM_FUNCTION void operator()(int i, DirectionTotals &all) const
   {
-    const State<B> &s = d.s;
-    for (int k = 0; k < D; k++) {
-      const double v = v_there[0] ? v_there[k][i] : s.v(i, k);
-      s.v_before[k][i] = (rates.velocity(i, k) - v) / amount;
-    }
-    if (s.grows) s.qdot_before[i] = (rates.qdot(i) - s.qdot[i]) / amount;
-    d.template measure<D>(i, all);
+    double f[Fields::MOST];
+    rates(i, f);
+    y.each([&](const auto &field) {
+      const int n = field.number;
+      const double at_start = elsewhere ? there.field[n][i] : field.rate(i);
+      field.before(i) = (f[n] - at_start) / amount;
+      all.add(field.before(i) / field.unit());
+    });
   }
 };
 
-FOAM_FUNCTION void take_change(double change, FoamTotals &all)
-{
-  if (std::fabs(change) > all.max[COMPONENT]) all.max[COMPONENT] = std::fabs(change);
-}
+// the rates of this evaluation, to compare others with that take the same as given; and how far they are from
+// those that are known
 
-// the velocities of this evaluation, to compare others with that take the same l; and how far they are
-// from those that are known
-
-template <int D, class B> struct KeepVelocities {
-  static constexpr const char *NAME = "foam: keep velocities";
-  State<B> s;
-  Rates<D, B> rates;
-  double *v[3];
-  FOAM_FUNCTION void operator()(int i, FoamTotals &all) const
+template <class Fields, class Rates> struct KeepRates {
+  static constexpr const char *NAME = "foam: keep rates";
+  Fields y;
+  Rates rates;
+  Work<Fields> there;
+  FOAM_FUNCTION void operator()(int i, FoamMax &change) const
   {
-    for (int k = 0; k < D; k++) {
-      v[k][i] = rates.velocity(i, k);
-      take_change(v[k][i] - s.v(i, k), all);
-    }
+    double f[Fields::MOST];
+    rates(i, f);
+    y.each([&](const auto &field) {
+      const int n = field.number;
+      there.field[n][i] = f[n];
+      change.raise(std::fabs((f[n] - field.rate(i)) / field.unit()));
+    });
   }
 };
 
 // the rates of the start, evaluated anew; and how far they are from those that were known
 
-template <int D, class B> struct TakeStartRates {
-  static constexpr const char *NAME = "foam: take rates of the start";
-  State<B> s;
-  Rates<D, B> rates;
-  FOAM_FUNCTION void operator()(int i, FoamTotals &all) const
+template <class Fields, class Rates> struct RenewStart {
+  static constexpr const char *NAME = "foam: renew rates of the start";
+  Fields y;
+  Rates rates;
+  FOAM_FUNCTION void operator()(int i, FoamMax &change) const
   {
-    for (int k = 0; k < D; k++) {
-      const double v = rates.velocity(i, k);
-      take_change(v - s.v(i, k), all);
-      if (s.v_start[0]) {
-        s.v_start[k][i] = v;
-        s.lag[k][i] = s.b.v(i, k);
-      } else
-        s.b.v(i, k) = v;
-    }
-    if (s.grows) s.qdot[i] = rates.qdot(i);
+    double f[Fields::MOST];
+    rates(i, f);
+    y.each([&](const auto &field) {
+      const int n = field.number;
+      change.raise(std::fabs((f[n] - field.rate(i)) / field.unit()));
+      field.put_rate(i, f[n]);
+    });
+    y.after_start(i);
   }
 };
+
+class SpectralRadius {
+ public:
+  double given = 0.0;           // 0: estimated
+  double displaced = 1.0e-6;    // of the bubble that moves most, in units of length: well above rounding
+
+  // state of the estimate, kept in restarts
+
+  double estimated = 0.0;
+  double estimate_step = -1.0;    // number of accepted steps when it was
+  double changed_step = 0.0;      // the same when the equations were others
+  double direction_size = 0.0;    // of the direction; 0: none yet
+  double direction_most = 0.0;    // its largest component
+  double rejected_then = 0.0;     // rejected steps at the last estimate
+  double others_change = 0.0;     // 1 if what others do to f has changed otherwise than with time
+
+  double value() const { return given > 0.0 ? given : estimated; }
+  double bound() const { return given > 0.0 ? given : MARGIN * estimated; }
+
+  // A foam that is new, or that a command has changed, changes fast: bubbles that nearly coincide
+  // alone make the spectral radius that of the inverse of their distance.  There estimates follow after 1, 2,
+  // 4, ... steps.
+
+  bool estimate_due(const Driver &driver) const
+  {
+    if (given > 0.0 || estimate_step == driver.accepted) return false;
+    if (driver.h_before == 0.0) return true;
+    const double most = driver.rejected == rejected_then ? STEPS : FEW;
+    return driver.accepted - estimate_step >=
+        std::min(most, std::max(1.0, estimate_step - changed_step));
+  }
+
+  template <class System> bool start_is_outdated(System &system) const
+  {
+    return system.moves_by_itself() ||
+        (system.others_act() && (given > 0.0 || others_change != 0.0));
+  }
+  template <class System> void renew_start(System &system, const Driver &driver)
+  {
+    system.evaluate(0.0);
+    const auto change =
+        system.template totals<FoamMax>(RenewStart{system.fields(), system.rates()});
+    if (system.others_act()) notice(system, driver, change);
+  }
+
+  // compare: F_0 is that of the last step, so that it shows what others have changed
+
+  template <class System> void estimate(System &system, const Driver &driver, bool compare);
+
+ private:
+  static constexpr double MARGIN = 1.1;            // an underestimate by less does no harm
+  static constexpr int STEPS = 25, FEW = 10;       // between estimates; if a step was rejected
+  static constexpr int ITERATIONS = 50;            // of an estimate
+  static constexpr double CONVERGED = 0.02;        // relative change of the last iteration
+  static constexpr double FALL = 0.9;              // of the estimate since the last one, at most
+  static constexpr double GONE = 0.5;              // or more: what made it as large is gone
+  static constexpr double NOTICEABLE = 0.01;       // of the tolerance: change of a step by others
+
+  template <class System>
+  void notice(System &system, const Driver &driver, const FoamMax &change_here)
+  {
+    const double change = system.reduce(change_here);
+    others_change =
+        change * driver.h > NOTICEABLE * driver.control.tolerance * system.length() ? 1.0 : 0.0;
+  }
+};
+
+template <class System>
+void SpectralRadius::estimate(System &system, const Driver &driver, bool compare)
+{
+  using Fields = typename System::Fields;
+  auto take = [&](const auto &functor) {
+    const auto all = system.reduce(system.template totals<DirectionTotals>(functor));
+    direction_size = std::sqrt(all.squares);
+    direction_most = all.component;
+  };
+  bool known = direction_size > 0.0 && std::isfinite(direction_size);    // by the last estimate
+  if (!known) take(AnyDirection{system.fields()});
+  if (known && driver.rejected != rejected_then) {    // perhaps by an instability
+    const double most =
+        system.reduce(system.template totals<FoamMax>(LargestRate{system.fields()}));
+    if (most > 0.0) take(JoinRates{system.fields(), direction_most / most});
+  }
+
+  // f may depend on more than y, which then is not what it was when F_0 was evaluated
+
+  Work<Fields> there{};
+  const bool elsewhere = system.lags() || system.others_act();
+  if (elsewhere) {
+    there = system.work();
+    system.for_each(Displace{system.fields(), 0.0});
+    system.evaluate(0.0);
+    const auto change =
+        system.template totals<FoamMax>(KeepRates{system.fields(), system.rates(), there});
+    if (compare && system.others_act()) notice(system, driver, change);
+  }
+
+  const double estimated_then = estimated;
+
+  // In a large foam the mode that relaxes fastest is that of a few bubbles, and the rest, which makes up
+  // the size of the direction, hides it for long; by the largest component it shows sooner.
+
+  for (int n = 0; n < ITERATIONS && direction_most > 0.0; n++) {
+    const double before = estimated, amount = displaced * system.length() / direction_most;
+    const double most = direction_most / direction_size;
+    system.for_each(Displace{system.fields(), amount});
+    system.evaluate(0.0);
+    take(TakeDirection{system.fields(), system.rates(), there, elsewhere, amount * direction_size});
+    estimated = std::max(direction_size, direction_most / most);
+    if (known && !(estimated > 0.0))
+      take(AnyDirection{system.fields()});    // the bubbles that the last one moved are gone
+    known = false;
+    if (std::fabs(estimated - before) <= CONVERGED * estimated) break;
+  }
+
+  // The iteration may miss the mode that the last one had found: in a foam that goes on as it was, the
+  // estimate falls little by little
+
+  if (driver.h_before == 0.0) changed_step = driver.accepted;
+  if (estimate_step - changed_step >= STEPS && estimated > GONE * estimated_then)
+    estimated = std::max(estimated, FALL * estimated_then);
+  estimate_step = driver.accepted;
+  rejected_then = driver.rejected;
+}
 
 }    // namespace Foam
 

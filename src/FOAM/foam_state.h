@@ -10,70 +10,54 @@
 #ifndef LMP_FOAM_STATE_H
 #define LMP_FOAM_STATE_H
 
+#include "foam_drag.h"
 #include "foam_gas.h"
+#include "foam_scheme.h"
 #include "foam_stepper.h"
 
-// The state of an integrator, its rates, and what is done with it whatever the scheme
+// The equations of a foam as fields: y = (x, q), f = (v, qdot), and what a step of them has to be judged by
 
 namespace Foam {
 
-// f = (v, qdot) of the state evaluated last, from the sums over contacts and the forces
+// f of the state evaluated last, from the forces and the sums over contacts
 
 template <int D, class B> struct Rates {
   B b;
-  double mu0;
-  const double *contacts = nullptr, *vsum[3] = {};    // with drag relative to neighbors
-  Sums drift{};                                       // of all velocities; 0 unless taken off
-  bool drift_removed = false;
+  Drag<D, B> drag;
   Exchange<D> gas{};
   Variable variable = Variable::VOLUME;
+  bool grows = false;
 
-  FOAM_FUNCTION double velocity(int i, int k) const
-  {
-    if (!(b.radius(i) > 0.0)) return 0.0;
-    const double u = contacts ? mean_of_neighbors(vsum[k][i], contacts[i]) : 0.0;
-    double v = drag_velocity(b.f(i, k), mu0, u);
-    if (drift_removed && drift[3] > 0.0) v -= drift[k] / drift[3];
-    return v;
-  }
   FOAM_FUNCTION double qdot(int i) const
   {
     const double R = b.radius(i);
     const typename Exchange<D>::Split split = gas(i, R);
     return q_rate<D>(variable, split.film + split.liquid, R);
   }
-};
-
-template <int D, class B> struct DriftSums {
-  static constexpr const char *NAME = "foam: drift";
-  static constexpr int SLOT = 1;
-  Rates<D, B> rates;
-  FOAM_FUNCTION void operator()(int i, SumsOfOne &all) const
+  FOAM_FUNCTION void operator()(int i, double *f) const
   {
-    for (int k = 0; k < D; k++) all.sum[k] += rates.velocity(i, k);
-    if (rates.b.radius(i) > 0.0) all.sum[3] += 1.0;
+    for (int k = 0; k < D; k++) f[k] = drag.velocity(i, k);
+    f[3] = grows ? qdot(i) : 0.0;
   }
 };
 
-// ---------------------------------------------------------------------- the state of an integrator
-
-// Columns of FixFoamIntegrate: y = (x, q), f = (v, qdot); n is the state at the start of the
-// step, n-1 the one before it, x and radius in LAMMPS are those of the candidate
+// Columns of FixFoamIntegrate, one of each kind for each field: x, y, z, q; values and rates of the first three
+// are LAMMPS' own.  n is the state at the start of the step, n-1 the one before it, x and radius in LAMMPS are
+// those of the candidate.
 
 template <class B> struct State {
+  static constexpr int MOST = 4, GAS = 3;
   B b;
-  double *q, *qdot;
-  double *v_before[3], *qdot_before;              // f_{n-1}
-  double *x_start[3], *q_start, *radius_start;    // y_n
-  double *v_start[3];                             // v_n where LAMMPS' v is l; else null
-  double *lag[3];                                 // l of f_n; null with static drag
-  double *x_listed[3], *radius_listed;            // when the neighbor list was built
-  double *v_next[3], *qdot_next;                  // f_{n+1}, where the corrector has it; else null
-  bool counts;    // bubbles may be removed: count them, sum their gas
-  bool grows;     // gas is exchanged, radii change
-  Variable variable;
-
-  FOAM_FUNCTION double v(int i, int k) const { return v_start[0] ? v_start[k][i] : b.v(i, k); }
+  double *q{}, *qdot{};
+  double *start[MOST]{}, *radius_start{};      // y_n
+  double *before[MOST]{};                      // f_{n-1}
+  double *next[MOST]{};                        // f_{n+1}, where the scheme has it; else null
+  double *x_listed[3]{}, *radius_listed{};     // when the neighbor list was built
+  VelocityLag lag{};
+  bool counts = false;    // bubbles may be removed: count them, sum their gas
+  bool grows = false;     // gas is exchanged, radii change
+  Variable variable = Variable::VOLUME;
+  double q_unit = 1.0;    // dq / dR at the mean radius
 };
 
 template <int D, class B> FOAM_FUNCTION void put_gas(const State<B> &s, int i, double q)
@@ -82,42 +66,162 @@ template <int D, class B> FOAM_FUNCTION void put_gas(const State<B> &s, int i, d
   s.b.radius(i) = radius_of<D>(s.variable, q);
 }
 
-// At the first attempt of a step y_n is kept, and with neighbor drag v_n too: LAMMPS' v, also
-// that of ghosts, then is l, where the pair style finds it.
+template <int D, class B> struct Fields : State<B> {
+  using State<B>::MOST;
 
-template <int D, class B> FOAM_FUNCTION void keep_start(const State<B> &s, int i)
-{
-  for (int k = 0; k < D; k++) {
-    s.x_start[k][i] = s.b.place(i, k);
-    if (s.v_start[0]) {
-      const double v = s.b.v(i, k);
-      s.v_start[k][i] = v;
-      s.b.v(i, k) = lagged_velocity(v, s.lag[k][i]);
+  struct Place {
+    const Fields &s;
+    const int number;
+    FOAM_FUNCTION double value(int i) const { return s.b.place(i, number); }
+    FOAM_FUNCTION void put(int i, double x) const { s.b.put(i, number, x); }
+    FOAM_FUNCTION double &start(int i) const { return s.start[number][i]; }
+    FOAM_FUNCTION double rate(int i) const { return s.lag.v(s.b, i, number); }
+    FOAM_FUNCTION void put_rate(int i, double v) const { s.lag.put_v(s.b, i, number, v); }
+    FOAM_FUNCTION double &before(int i) const { return s.before[number][i]; }
+    FOAM_FUNCTION double measure(int, double change) const { return change; }
+    FOAM_FUNCTION double unit() const { return 1.0; }
+  };
+  struct Gas {
+    const Fields &s;
+    static constexpr int number = State<B>::GAS;
+    FOAM_FUNCTION double value(int i) const { return s.q[i]; }
+    FOAM_FUNCTION void put(int i, double q) const { put_gas<D>(s, i, q); }
+    FOAM_FUNCTION double &start(int i) const { return s.start[number][i]; }
+    FOAM_FUNCTION double rate(int i) const { return s.qdot[i]; }
+    FOAM_FUNCTION void put_rate(int i, double qdot) const { s.qdot[i] = qdot; }
+    FOAM_FUNCTION double &before(int i) const { return s.before[number][i]; }
+    FOAM_FUNCTION double measure(int i, double change) const
+    {
+      return radius_of<D>(s.variable, s.q[i] + change) - s.b.radius(i);
+    }
+    FOAM_FUNCTION double unit() const { return s.q_unit; }
+  };
+
+  template <class Visit> FOAM_FUNCTION void each(Visit &&visit) const
+  {
+    for (int k = 0; k < D; k++) visit(Place{*this, k});
+    if (this->grows) visit(Gas{*this});
+  }
+
+  FOAM_FUNCTION void keep_start(int i) const
+  {
+    for (int k = 0; k < D; k++) this->lag.begin(this->b, i, k);
+    each([&](const auto &field) { field.start(i) = field.value(i); });
+    if (this->grows) this->radius_start[i] = this->b.radius(i);
+  }
+  FOAM_FUNCTION void rewind(int i) const
+  {
+    for (int k = 0; k < D; k++) this->lag.rewind(this->b, i, k);
+  }
+  FOAM_FUNCTION void after_stage(int i, const double *f) const
+  {
+    for (int k = 0; k < D; k++) this->lag.follow(this->b, i, k, f[k]);
+  }
+  FOAM_FUNCTION void after_start(int i) const
+  {
+    for (int k = 0; k < D; k++) this->lag.keep(this->b, i, k);
+  }
+  FOAM_FUNCTION double reach(int i) const { return from_listed(i, this->b.radius(i)); }
+  FOAM_FUNCTION bool alive(int i) const { return this->b.radius(i) > 0.0; }
+  FOAM_FUNCTION double seed(int i) const { return this->b.tag(i); }
+
+  // how far a bubble has moved and grown since the list was built
+
+  FOAM_FUNCTION double from_listed(int i, double R) const
+  {
+    double square = 0.0;
+    for (int k = 0; k < D; k++) {
+      const double d = this->b.place(i, k) - this->x_listed[k][i];
+      square += d * d;
+    }
+    return std::sqrt(square) + growth(R - this->radius_listed[i]);
+  }
+
+  // the same in the next step, if it goes as far as this one
+
+  FOAM_FUNCTION double ahead(int i, double R, double R_start) const
+  {
+    double square = 0.0;
+    for (int k = 0; k < D; k++) {
+      const double d = 2.0 * this->b.place(i, k) - this->start[k][i] - this->x_listed[k][i];
+      square += d * d;
+    }
+    return std::sqrt(square) + growth(2.0 * R - R_start - this->radius_listed[i]);
+  }
+
+ private:
+  FOAM_FUNCTION double growth(double dR) const { return this->counts && dR > 0.0 ? dR : 0.0; }
+};
+
+// Everything that has to be known of a candidate, over all ranks at once: its error, whether
+// the list still holds, and the bubbles that it would leave
+
+struct Judgement {
+  FoamMax error, moved, ahead, radius_max;    // moved, ahead: from the listed state
+  FoamSum bubbles, radii, gas, removed, gas_removed;
+  FoamSum squares, bad;    // of errors; bubbles of which something is no number
+
+  FOAM_FUNCTION void join(const Judgement &other)
+  {
+    error.join(other.error);
+    moved.join(other.moved);
+    ahead.join(other.ahead);
+    radius_max.join(other.radius_max);
+    bubbles.join(other.bubbles);
+    radii.join(other.radii);
+    gas.join(other.gas);
+    removed.join(other.removed);
+    gas_removed.join(other.gas_removed);
+    squares.join(other.squares);
+    bad.join(other.bad);
+  }
+};
+
+template <int D, class B> struct Judge {
+  using Totals = Judgement;
+  Fields<D, B> s;
+  double smallest;    // radius below which a bubble is removed
+
+  FOAM_FUNCTION void operator()(int i, const StepError &error, double reach, Judgement &all) const
+  {
+    all.error.raise(error.largest);
+    all.squares += error.squares;
+    all.moved.raise(reach);
+    const double R = s.b.radius(i), q = s.q[i], R_start = s.grows ? s.radius_start[i] : R;
+    if (!(R_start > 0.0)) return;    // dead already
+
+    const double ahead = s.ahead(i, R, R_start);
+    all.ahead.raise(ahead);
+    all.ahead.raise(s.from_listed(i, R));
+    if (!std::isfinite(ahead) || !std::isfinite(q)) all.bad += 1.0;
+
+    if (!s.counts) {    // nobody asks for their sums
+      all.bubbles += 1.0;
+    } else if (vanished(R, q, smallest)) {
+      all.removed += 1.0;
+      all.gas_removed += gas_content<D>(s.variable, q);
+    } else {
+      all.bubbles += 1.0;
+      all.radii += R;
+      all.gas += gas_content<D>(s.variable, q);
+      all.radius_max.raise(R);
     }
   }
-  if (s.grows) {
-    s.q_start[i] = s.q[i];
-    s.radius_start[i] = s.b.radius(i);
-  }
-}
-
-template <int D, class B> struct KeepStart {
-  static constexpr const char *NAME = "foam: keep start";
-  State<B> s;
-  FOAM_FUNCTION void operator()(int i) const { keep_start<D>(s, i); }
 };
+
+// ---------------------------------------------------------------------- between attempts and steps
 
 template <int D, class B> struct ReturnToStart {
   static constexpr const char *NAME = "foam: return to start";
-  State<B> s;
+  Fields<D, B> s;
   FOAM_FUNCTION void operator()(int i) const
   {
     for (int k = 0; k < D; k++) {
-      s.b.put(i, k, s.x_start[k][i]);
-      if (s.v_start[0]) s.b.v(i, k) = s.v_start[k][i];
+      s.b.put(i, k, s.start[k][i]);
+      s.lag.give_up(s.b, i, k);
     }
     if (s.grows) {
-      s.q[i] = s.q_start[i];
+      s.q[i] = s.start[s.GAS][i];
       s.b.radius(i) = s.radius_start[i];
     }
   }
@@ -133,72 +237,6 @@ template <class B> struct TakeListed {
   }
 };
 
-// how far a bubble has moved and grown since then
-
-template <int D, class B> FOAM_FUNCTION double from_listed(const State<B> &s, int i, double R)
-{
-  double square = 0.0;
-  for (int k = 0; k < D; k++) {
-    const double d = s.b.place(i, k) - s.x_listed[k][i];
-    square += d * d;
-  }
-  const double growth = s.counts ? R - s.radius_listed[i] : 0.0;
-  return std::sqrt(square) + (growth > 0.0 ? growth : 0.0);
-}
-
-// Everything that has to be known of a candidate, over all ranks at once: its error, whether
-// the list still holds, and the bubbles that it would leave
-
-enum JudgedSum { BUBBLES, RADII, GAS, REMOVED, GAS_REMOVED, SQUARES, BAD };
-enum JudgedMax { ERROR, MOVED, AHEAD, LARGEST };
-
-template <int D, class B> struct Judge {
-  State<B> s;
-  double smallest;    // radius below which a bubble is removed
-
-  // moved: how far its evaluated states were from the listed one
-
-  FOAM_FUNCTION void operator()(int i, double error, double squares, double moved,
-                                FoamTotals &all) const
-  {
-    raise(all.max[ERROR], error);
-    all.sum[SQUARES] += squares;
-    raise(all.max[MOVED], moved);
-    const double R = s.b.radius(i), q = s.q[i], R_start = s.grows ? s.radius_start[i] : R;
-    if (!(R_start > 0.0)) return;    // dead already
-
-    // as far from the listed state as the next step goes if it repeats this one
-
-    double square = 0.0;
-    for (int k = 0; k < D; k++) {
-      const double ahead = 2.0 * s.b.place(i, k) - s.x_start[k][i] - s.x_listed[k][i];
-      square += ahead * ahead;
-    }
-    const double growth = s.counts ? 2.0 * R - R_start - s.radius_listed[i] : 0.0;
-    raise(all.max[AHEAD], std::sqrt(square) + (growth > 0.0 ? growth : 0.0));
-    raise(all.max[AHEAD], from_listed<D>(s, i, R));
-    if (!std::isfinite(square) || !std::isfinite(q)) all.sum[BAD] += 1.0;
-
-    if (!s.counts) {    // nobody asks for their sums
-      all.sum[BUBBLES] += 1.0;
-    } else if (vanished(R, q, smallest)) {
-      all.sum[REMOVED] += 1.0;
-      all.sum[GAS_REMOVED] += gas_content<D>(s.variable, q);
-    } else {
-      all.sum[BUBBLES] += 1.0;
-      all.sum[RADII] += R;
-      all.sum[GAS] += gas_content<D>(s.variable, q);
-      raise(all.max[LARGEST], R);
-    }
-  }
-
- private:
-  FOAM_FUNCTION static void raise(double &most, double value)
-  {
-    if (value > most) most = value;
-  }
-};
-
 // The smallest bubbles are removed, and their gas is shared out: a removed bubble stays as a
 // dead one of radius 0 until the next list build
 
@@ -209,8 +247,8 @@ template <int D, class B> struct Redistribute {
   FOAM_FUNCTION void operator()(int i) const
   {
     if (vanished(s.b.radius(i), s.q[i], smallest)) {
-      s.q[i] = s.qdot[i] = s.qdot_before[i] = 0.0;
-      for (int k = 0; k < 3; k++) s.v_before[k][i] = 0.0;
+      s.q[i] = s.qdot[i] = 0.0;
+      for (int n = 0; n < s.MOST; n++) s.before[n][i] = 0.0;
       for (int k = 0; k < 3; k++) s.b.v(i, k) = 0.0;
       s.b.radius(i) = 0.0;
     } else {
@@ -222,50 +260,48 @@ template <int D, class B> struct Redistribute {
 template <class B> struct LargestRadius {
   static constexpr const char *NAME = "foam: largest radius";
   B b;
-  FOAM_FUNCTION void operator()(int i, FoamTotals &all) const
-  {
-    if (b.radius(i) > all.max[LARGEST]) all.max[LARGEST] = b.radius(i);
-  }
+  FOAM_FUNCTION void operator()(int i, FoamMax &all) const { all.raise(b.radius(i)); }
 };
 
 struct CountBubbles {
   static constexpr const char *NAME = "foam: count bubbles";
-  FOAM_FUNCTION void operator()(int, FoamTotals &all) const { all.sum[BUBBLES] += 1.0; }
+  FOAM_FUNCTION void operator()(int, FoamSum &all) const { all += 1.0; }
 };
 
 // f_n becomes f_{n-1}, and f_{n+1}, if known, f_n
 
-template <int D, class B> FOAM_FUNCTION void keep_history(const State<B> &s, int i)
+template <int D, class B> FOAM_FUNCTION void keep_history(const Fields<D, B> &s, int i)
 {
-  for (int k = 0; k < D; k++) s.v_before[k][i] = s.v(i, k);
-  s.qdot_before[i] = s.qdot[i];
-  if (!s.qdot_next) return;
-  for (int k = 0; k < D; k++) s.b.v(i, k) = s.v_next[k][i];
-  s.qdot[i] = s.grows ? s.qdot_next[i] : 0.0;
+  for (int k = 0; k < D; k++) s.before[k][i] = s.lag.v(s.b, i, k);
+  s.before[s.GAS][i] = s.qdot[i];
+  if (!s.next[0]) return;
+  for (int k = 0; k < D; k++) s.b.v(i, k) = s.next[k][i];
+  s.qdot[i] = s.grows ? s.next[s.GAS][i] : 0.0;
 }
 
 template <int D, class B> struct KeepHistory {
   static constexpr const char *NAME = "foam: keep history";
-  State<B> s;
+  Fields<D, B> s;
   FOAM_FUNCTION void operator()(int i) const { keep_history<D>(s, i); }
 };
 
-// the rates of the new state
+// the rates of the new state: the step is over, and LAMMPS' v is that of the bubbles
 
 template <int D, class B> struct TakeRates {
   static constexpr const char *NAME = "foam: take rates";
-  State<B> s;
+  Fields<D, B> s;
   Rates<D, B> rates;
-  bool history, lagged;    // is f_n to be kept; does LAMMPS' v hold l
+  bool history;    // is f_n to be kept
   FOAM_FUNCTION void operator()(int i) const
   {
     if (history) keep_history<D>(s, i);
+    double f[State<B>::MOST];
+    rates(i, f);
     for (int k = 0; k < 3; k++) {
-      const double l = s.b.v(i, k);
-      s.b.v(i, k) = k < D ? rates.velocity(i, k) : 0.0;
-      if (lagged) s.lag[k][i] = l;
+      s.lag.keep(s.b, i, k);
+      s.b.v(i, k) = k < D ? f[k] : 0.0;
     }
-    s.qdot[i] = s.grows ? rates.qdot(i) : 0.0;
+    s.qdot[i] = f[s.GAS];
   }
 };
 

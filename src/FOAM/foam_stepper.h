@@ -40,6 +40,11 @@ template <int D> FOAM_FUNCTION double q_of(Variable variable, double R)
   return variable == Variable::VOLUME ? power_of_radius<D>(R) : R;
 }
 
+template <int D> FOAM_FUNCTION double slope_of_q(Variable variable, double R)    // dq / dR
+{
+  return variable == Variable::VOLUME ? slope_of_power<D>(R) : 1.0;
+}
+
 template <int D> FOAM_FUNCTION double gas_content(Variable variable, double q)
 {
   return CONTENT<D> *

@@ -18,6 +18,7 @@ PairStyle(durian/foam,PairDurianFoam);
 
 #include "foam_columns.h"
 #include "foam_contacts.h"
+#include "foam_gas.h"
 #include "foam_law.h"
 #include "pair.h"
 
@@ -70,10 +71,10 @@ class PairDurianFoam : public Pair {
   bool neighbor_drag;     // drag relative to neighbors' mean velocity or to a liquid at rest
   unsigned gas_wanted;    // set by fix foam/coarsen: Foam::FILM, AREA to gather in each compute()
 
-  // the sums over all bubbles of Foam::add_free_surface(), where they come with compute()
+  // the sums over all bubbles that exchange through the liquid takes, where they come with compute()
 
   Foam::LiquidLaw liquid_law = Foam::LiquidLaw::AREA;    // set by fix foam/coarsen
-  Foam::Sums free_surface;
+  Foam::Sums<Foam::FreeSurface> free_surface;
   bool free_surface_known = false;
 
   bool radii_change = false;                            // set by the integrator

@@ -29,9 +29,7 @@ FixFoamCoarsenKokkos<DeviceType>::FixFoamCoarsenKokkos(LAMMPS *lmp, int narg, ch
 template <class DeviceType> double FixFoamCoarsenKokkos<DeviceType>::critical_radius()
 {
   if (rho_elsewhere) {
-    double sum[4];
-    here.fetch(rho_elsewhere, sum);
-    const double inverse = Foam::inverse_critical_radius(sum[2], sum[3]);
+    const double inverse = here.fetch(rho_elsewhere).inverse_rho();
     keep_critical_radius(inverse > 0.0 ? 1.0 / inverse : 0.0);
   }
   return FixFoamCoarsen::critical_radius();

@@ -39,18 +39,18 @@ class FixFoamIntegrateKokkos : public FoamTravellingKokkos<Style, DeviceType> {
   {
     here.groupbit = this->groupbit;
     if (std::is_same_v<KK_FLOAT, float>) {
-      this->low.use(lmp->atom->nmax);
-      here.low = &this->low;
+      this->residuals.use(lmp->atom->nmax);
+      here.residuals = &this->residuals;
     }
   }
 
  protected:
   using FoamTravellingKokkos<Style, DeviceType>::here;
 
-  FoamTotals attempt(double step, bool first) override
+  Foam::Judgement candidate(double step, bool first) override
   {
     return Foam::with_dimension(
-        this->dim, [&]<int D>() { return this->template attempt_in<D>(here, step, first); });
+        this->dim, [&]<int D>() { return this->template candidate_in<D>(here, step, first); });
   }
   void keep_history() override { this->keep_history_in(here); }
   void take_rates(bool history) override { this->take_rates_in(here, history); }

@@ -31,7 +31,7 @@ class FixFoamRKCKokkos : public FixFoamIntegrateKokkos<FixFoamRKC, DeviceType> {
   {
     // well above the rounding of coordinates, else there is no telling how rates change
 
-    if (std::is_same_v<KK_FLOAT, float>) this->aside = 1.0e-2;
+    if (std::is_same_v<KK_FLOAT, float>) this->scheme.spectral.displaced = 1.0e-2;
   }
 };
 

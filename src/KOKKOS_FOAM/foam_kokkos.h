@@ -12,6 +12,7 @@
 
 #include "foam_columns.h"
 #include "foam_bubbles.h"
+#include "foam_reduce.h"
 
 #include "atom_kokkos.h"
 #include "atom_masks.h"
@@ -74,18 +75,18 @@ template <class DeviceType> struct FoamKokkosBubbles {
   typename AT::t_int_1d type;
   typename AT::t_tagint_1d tag;
 
-  double *low[3];
+  double *residual[3];    // what the first lacks of double precision
 
   static constexpr bool DOUBLE = std::is_same_v<KK_FLOAT, double>;
 
   KOKKOS_INLINE_FUNCTION double place(int i, int k) const
   {
-    return DOUBLE || !low[k] ? x(i, k) : x(i, k) + low[k][i];
+    return DOUBLE || !residual[k] ? x(i, k) : x(i, k) + residual[k][i];
   }
   KOKKOS_INLINE_FUNCTION void put(int i, int k, double value) const
   {
     x(i, k) = value;
-    if (!DOUBLE && low[k]) low[k][i] = value - x(i, k);
+    if (!DOUBLE && residual[k]) residual[k][i] = value - x(i, k);
   }
 };
 
@@ -165,10 +166,10 @@ template <class DeviceType> class FoamKokkos : protected Pointers {
     if constexpr (AS_WITHOUT) {
       return {{x.data()}, {v.data()}, {f.data()}, {radius.data()}, {type.data()}, {tag.data()}};
     } else {
-      auto low_at = [&](int k) {
-        return low ? low->on_device(k) : nullptr;
+      auto residual = [&](int k) {
+        return residuals ? residuals->on_device(k) : nullptr;
       };
-      return {x, v, f, radius, type, tag, {low_at(0), low_at(1), low_at(2)}};
+      return {x, v, f, radius, type, tag, {residual(0), residual(1), residual(2)}};
     }
   }
   Foam::Members members(int group) const
@@ -208,44 +209,42 @@ template <class DeviceType> class FoamKokkos : protected Pointers {
                             FoamJoin<Value, Kokkos::HostSpace>(&mine));
     return mine;
   }
-  template <class Body> FoamTotals totals(int n, const Body &body) const
+  template <class Totals, class Body> Totals totals(int n, const Body &body) const
   {
-    return reduce<FoamTotals>(n, body);
+    return reduce<Totals>(n, body);
   }
 
   // Sums over all ranks. Those of a single rank with a device stay there.
 
-  template <class Body> Foam::Sums sums(int n, const Body &body) const
+  template <class Totals, class Body> Foam::Sums<Totals> sums(int n, const Body &body) const
   {
-    Foam::Sums all;
     int nprocs;
     MPI_Comm_size(world, &nprocs);
-    if (ON_HOST || nprocs > 1) {
-      auto mine = reduce<Foam::SumsOfOne>(n, body);
-      MPI_Allreduce(mine.sum, all.known, 4, MPI_DOUBLE, MPI_SUM, world);
-    } else {
-      Foam::SumsOfOne *const there = sums_there.data() + Body::SLOT;
-      Kokkos::parallel_reduce(Body::NAME, Kokkos::RangePolicy<DeviceType>(0, n),
-                              FoamReduceBubbles<Body, Foam::SumsOfOne>{body, members(groupbit)},
-                              FoamJoin<Foam::SumsOfOne, typename DeviceType::memory_space>(there));
-      all.elsewhere = there->sum;
-    }
+    if (ON_HOST || nprocs > 1) return {foam_reduce(reduce<Totals>(n, body), world)};
+    static_assert(sizeof(Totals) <= sizeof(double) * SLOT_SIZE);
+    auto *const there = reinterpret_cast<Totals *>(sums_there.data() + SLOT_SIZE * Totals::SLOT);
+    Kokkos::parallel_reduce(Body::NAME, Kokkos::RangePolicy<DeviceType>(0, n),
+                            FoamReduceBubbles<Body, Totals>{body, members(groupbit)},
+                            FoamJoin<Totals, typename DeviceType::memory_space>(there));
+    return {{}, there};
+  }
+  template <class Totals> static Totals fetch(const Totals *elsewhere)
+  {
+    using Here = Kokkos::View<Totals, Kokkos::HostSpace, Kokkos::MemoryUnmanaged>;
+    using There =
+        Kokkos::View<const Totals, typename DeviceType::memory_space, Kokkos::MemoryUnmanaged>;
+    Totals all;
+    Kokkos::deep_copy(Here(&all), There(elsewhere));
     return all;
   }
-  static void fetch(const double *elsewhere, double *sum)
-  {
-    using Here = Kokkos::View<double[4], Kokkos::HostSpace, Kokkos::MemoryUnmanaged>;
-    using There =
-        Kokkos::View<const double[4], typename DeviceType::memory_space, Kokkos::MemoryUnmanaged>;
-    Kokkos::deep_copy(Here(sum), There(elsewhere));
-  }
 
-  FoamColumns *low = nullptr;        // see FoamKokkosBubbles; of an integrator
+  FoamColumns *residuals = nullptr;    // see FoamKokkosBubbles; of an integrator
   int groupbit = Foam::GROUP_ALL;    // of the bubbles
 
  private:
   uint64_t written;
-  Kokkos::View<Foam::SumsOfOne[2], DeviceType> sums_there;
+  static constexpr int SLOTS = 2, SLOT_SIZE = 4;
+  Kokkos::View<double[SLOTS * SLOT_SIZE], DeviceType> sums_there;
 };
 
 }    // namespace LAMMPS_NS

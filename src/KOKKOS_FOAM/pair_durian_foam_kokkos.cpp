@@ -348,18 +348,17 @@ template <unsigned WHAT, bool CHUNKS, class Loop> struct Contacts {
 
 template <int D, unsigned WHAT, bool CHUNKS, class Loop> struct SummedContacts {
   static constexpr const char *NAME = "foam: contacts and free surface";
-  static constexpr int SLOT = 0;
   Loop loop;
   int chunk, nlocal;
   bool clear;
   Foam::LiquidLaw law;
-  KOKKOS_INLINE_FUNCTION void operator()(int n, Foam::SumsOfOne &all) const
+  KOKKOS_INLINE_FUNCTION void operator()(int n, Foam::FreeSurface &all) const
   {
     Contacts<WHAT, CHUNKS, Loop>{loop, chunk, nlocal, clear}(n);
     const int begin = n * chunk, end = begin + chunk < nlocal ? begin + chunk : nlocal;
     for (int i = begin; i < end; i++)
       if (loop.sums.members(i))
-        Foam::add_free_surface<D>(law, loop.b.radius(i), loop.sums.area[i], all);
+        all.template add<D>(law, loop.b.radius(i), loop.sums.area[i]);
   }
 };
 
@@ -426,7 +425,7 @@ void PairDurianFoamKokkos<DeviceType>::gather_in(const Law &chosen)
     using Loop = Foam::ContactLoop<D, WHAT, !CHUNKS, Law, B, Rows, Foam::NoTally>;
     const Loop loop{here.bubbles(), rows, chosen, coefficients, sums, !clear};
     if constexpr ((WHAT & Foam::FORCE) && (WHAT & Foam::AREA)) {
-      free_surface = here.sums(
+      free_surface = here.template sums<Foam::FreeSurface>(
           n, SummedContacts<D, WHAT, CHUNKS, Loop>{loop, chunk, nlocal, clear, liquid_law});
       free_surface_known = true;
     } else

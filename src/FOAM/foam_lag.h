@@ -1,0 +1,57 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   This software is distributed under the GNU General Public License.
+   Wet-foam package: see the README file of the package.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_FOAM_LAG_H
+#define LMP_FOAM_LAG_H
+
+#include "foam_columns.h"
+#include "foam_drag.h"
+
+#include "pointers.h"
+
+namespace LAMMPS_NS {
+
+// The velocities l that neighbor drag takes as given, beyond an evaluation: from step to step, run to run, and in
+// restart files.  Within a step see Foam::VelocityLag.
+
+class FoamLag : protected Pointers {
+ public:
+  FoamLag(LAMMPS *lmp, FoamColumnList &all, unsigned travels, unsigned stays)
+      : Pointers(lmp), columns(all, "lagged velocities", NCOLUMNS, travels),
+        v_start(all, "velocities of the start", 3, stays)
+  {
+  }
+
+  bool active = false;    // does the pair style take l from v
+  double known = 0.0;     // 1 if LAG and LAST are those of a previous run
+
+  // l of the evaluation of the present velocities, and the velocities with which the last run ended
+
+  enum { LAGX, LAGY, LAGZ, LASTX, LASTY, LASTZ, NCOLUMNS };
+  FoamColumns columns;
+  FoamColumns v_start;    // v_n, while LAMMPS' v is l
+
+  template <class Space> Foam::VelocityLag view(Space &here)
+  {
+    if (!active) return {};
+    return {{here.column(v_start, 0), here.column(v_start, 1), here.column(v_start, 2)},
+            {here.column(columns, LAGX), here.column(columns, LAGY), here.column(columns, LAGZ)}};
+  }
+
+  // on the host
+
+  void give(Foam::Members is_bubble);    // to an evaluation before a run
+  void keep_last();                      // the run ends
+  void keep_last(int i);
+  double last(int k, int i) { return columns[LASTX + k][i]; }
+};
+
+}    // namespace LAMMPS_NS
+
+#endif

@@ -1,0 +1,76 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   This software is distributed under the GNU General Public License.
+   Wet-foam package: see the README file of the package.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_FOAM_SCHEME_H
+#define LMP_FOAM_SCHEME_H
+
+#include "foam_physics.h"
+
+#include <cmath>
+
+// Differential equations dy/dt = f(y) as the schemes see them (foam_abm.h, foam_rkc.h, foam_spectral.h).
+//
+// y is made of fields, each of which has a number for every bubble: schemes make linear combinations of them
+// and know nothing else, neither bubbles nor the dimension.  In a functor, for bubble i:
+//
+//   y.each(visit)           visit(field) for each field
+//   y.keep_start(i)         the step starts here;  y.rewind(i): another attempt does
+//   y.after_stage(i, f)     f are the rates of a stage, and the next one follows
+//   y.after_start(i)        the rates of the start have been evaluated anew
+//   y.reach(i)              how far bubble i is from where evaluations were prepared for
+//   y.alive(i), y.seed(i)   takes part; a number of its own, the same on any number of ranks
+//
+//   field.number            its place in arrays of MOST numbers
+//   field.value(i), field.put(i, value)
+//   field.start(i)          y_n
+//   field.rate(i), field.put_rate(i, value)    f_n
+//   field.before(i)         f_{n-1}, for schemes with a history; a direction, for the spectral radius
+//   field.measure(i, d)     length of a change d of the present value
+//   field.unit()            change per unit of length
+//
+// rates(i, f) gives f of the state evaluated last, judge(i, error, reach, totals) adds a candidate to the totals
+// that decide on it.  A System puts them together on the host:
+//
+//   fields(), rates(), judge(), work()         Fields, Rates, Judge, Work
+//   evaluate(later)                            what rates() needs of the present y, at the start + later
+//   for_each(functor), totals<T>(functor)      over all bubbles of this rank
+//   reduce(mine)                               totals over all ranks
+//   length()                                   a typical one
+//   moves_by_itself()       y changes between steps, too (a box that moves)
+//   others_act()            f depends on more than y and time, which others know
+//   lags()                  f depends on rates before it
+
+namespace Foam {
+
+template <class Fields> struct Work {    // of a scheme, within a step
+  double *field[Fields::MOST];
+  double *bubble;
+};
+
+// the error of one bubble in a step, as lengths
+
+struct StepError {
+  double largest = 0.0, squares = 0.0;
+  FOAM_FUNCTION void add(double error)
+  {
+    error = std::fabs(error);
+    if (error > largest) largest = error;
+    squares += error * error;
+  }
+};
+
+template <class Fields> struct KeepStart {
+  static constexpr const char *NAME = "foam: keep start";
+  Fields y;
+  FOAM_FUNCTION void operator()(int i) const { y.keep_start(i); }
+};
+
+}    // namespace Foam
+
+#endif
