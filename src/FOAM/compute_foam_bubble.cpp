@@ -12,7 +12,7 @@
 #include "fix_foam_coarsen.h"
 #include "foam_input.h"
 #include "foam_physics.h"
-#include "pair_durian_foam.h"
+#include "pair_foam.h"
 
 #include "atom.h"
 #include "domain.h"
@@ -73,7 +73,7 @@ void ComputeFoamBubble::init()
 
 void ComputeFoamBubble::find_foam()
 {
-  pair = dynamic_cast<PairDurianFoam *>(force->pair_match("durian/foam", 0));
+  pair = PairFoam::of(lmp);
   if (!pair) error->all(FLERR, "Compute foam/bubble needs one pair_style durian/foam");
   gas = nullptr;
   for (auto &ifix : modify->get_fix_list())

@@ -38,7 +38,7 @@ class ComputeFoamBubble : public Compute {
 
  protected:
   Foam::Quantities wanted;
-  PairDurianFoam *pair;
+  PairFoam *pair;
   FixFoamCoarsen *gas;    // null: no gas is exchanged
   int nmax;
   double *vector;
@@ -59,10 +59,11 @@ class ComputeFoamBubble : public Compute {
   void look_in(Space &here, const Masks &mask, double *out)
   {
     using B = typename Space::Bubbles;
-    here.groupbit = pair->groupbit;
+    here.groupbit = pair->hub.groupbit;
     const auto gas_law = gas ? gas->exchange<D>(here, atom->nlocal) : Foam::Exchange<D>();
-    const Foam::LookAt<D, B, Masks> body{here.bubbles(), mask,    groupbit | pair->groupbit, out,
-                                         wanted,         gas_law, pair->contact_sums(here)};
+    const Foam::LookAt<D, B, Masks> body{
+        here.bubbles(), mask,    groupbit | pair->hub.groupbit, out,
+        wanted,         gas_law, pair->contact_sums(here)};
     here.for_all(atom->nlocal, body);
   }
 };

@@ -17,8 +17,8 @@ FixFoamABM::FixFoamABM(LAMMPS *lmp, int narg, char **arg) : FixFoamIntegrate(lmp
 {
   settings(narg, arg, {{"scheme", [&](const FoamInput::Value &v) {
                           driver.control.scheme = v.one_of({"standard", "source"}) == 1
-                                               ? Foam::Scheme::SOURCE
-                                               : Foam::Scheme::STANDARD;
+                                                      ? Foam::Scheme::SOURCE
+                                                      : Foam::Scheme::STANDARD;
                         }}});
   if (drift_removed && driver.control.scheme == Foam::Scheme::SOURCE)
     error->all(FLERR, "Fix {}: drift remove goes with scheme standard, not with scheme source",

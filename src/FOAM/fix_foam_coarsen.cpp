@@ -83,30 +83,30 @@ int FixFoamCoarsen::modify_param(int narg, char **arg)
                    if (!find_pair())
                      error->all(FLERR,
                                 "Fix foam/coarsen: fix_modify tau needs pair_style durian/foam");
-                   pair->tau = tau;
+                   pair->hub.record.tau = tau;
                  }});
   FoamInput input(error, "Fix foam/coarsen: fix_modify", MIN(narg, 2), arg);
   input.keywords(all);
-  if (find_pair()) tell(*pair);    // at once: the next run may have no set-up
+  if (find_pair()) tell(pair->hub);    // at once: the next run may have no set-up
   changed = true;
   return 2;
 }
 
 // what it has to gather
 
-void FixFoamCoarsen::tell(PairDurianFoam &its_pair) const
+void FixFoamCoarsen::tell(FoamHub &hub) const
 {
-  its_pair.gas_wanted = 0;
-  if (K > 0.0 && through_films) its_pair.gas_wanted |= Foam::FILM;
-  if (K > 0.0 && kappa > 0.0) its_pair.gas_wanted |= Foam::AREA;
-  its_pair.liquid_law = law;
+  hub.gas_wanted = 0;
+  if (K > 0.0 && through_films) hub.gas_wanted |= Foam::FILM;
+  if (K > 0.0 && kappa > 0.0) hub.gas_wanted |= Foam::AREA;
+  hub.liquid_law = law;
 }
 
 // it may have been replaced since the last run
 
 bool FixFoamCoarsen::find_pair()
 {
-  pair = dynamic_cast<PairDurianFoam *>(force->pair_match("durian/foam", 0));
+  pair = PairFoam::of(lmp);
   return pair;
 }
 
@@ -122,7 +122,7 @@ void FixFoamCoarsen::init()
     error->all(FLERR, "Fix foam/coarsen: only one fix of this style can be used at a time");
   bool integrated = false;
   for (auto &ifix : modify->get_fix_list())
-    if (PairDurianFoam::integrated_by(ifix)) integrated = true;
+    if (FoamHub::integrates(ifix)) integrated = true;
   if (!integrated)
     error->all(FLERR,
                "Fix foam/coarsen needs a fix that integrates the foam, fix foam/rkc or foam/abm");
@@ -132,19 +132,20 @@ void FixFoamCoarsen::init()
 
 double FixFoamCoarsen::smallest_radius() const
 {
-  return rmin * pair->rin;
+  return rmin * pair->hub.record.rin;
 }
 
 void FixFoamCoarsen::accepted(double h, double removed, double gas_removed)
 {
-  pair->tau += Foam::scaled_time(K, h, pair->rin);
-  pair->removed_bubbles += removed;
-  pair->removed_gas += gas_removed;
+  pair->hub.record.tau += Foam::scaled_time(K, h, pair->hub.record.rin);
+  pair->hub.record.removed_bubbles += removed;
+  pair->hub.record.removed_gas += gas_removed;
   if (removed > 0.0) dead = true;
 }
 
 std::string FixFoamCoarsen::end_reached() const
 {
+  const FoamHub::Population &population = pair->hub.population;
   if (population.bubbles <= nmin)
     return fmt::format("{:.0f} bubbles are left, nmin is {}", population.bubbles, nmin);
   double side = MIN(domain->xprd, domain->yprd);
@@ -214,30 +215,31 @@ void FixFoamCoarsen::count_particles()
 
 double FixFoamCoarsen::compute_vector(int n)
 {
-  if (!find_pair() || !(pair->rin > 0.0))
+  if (!find_pair() || !(pair->hub.record.rin > 0.0))
     return 0.0;    // replaced since the last run, or there was none
   double box = domain->xprd * domain->yprd;
   if (domain->dimension == 3) box *= domain->zprd;
+  const FoamHub::Population &population = pair->hub.population;
   const double N = population.bubbles;
   switch (n) {
     case 0:
-      return pair->tau;
+      return pair->hub.record.tau;
     case 1:
       return N;
     case 2:
-      return N > 0.0 ? population.radius_sum / (N * pair->rin) : 0.0;
+      return N > 0.0 ? population.radius_sum / (N * pair->hub.record.rin) : 0.0;
     case 3:
-      return population.radius_max / pair->rin;
+      return population.radius_max / pair->hub.record.rin;
     case 4:
       return Foam::gas_fraction(population.gas, box);
     case 5:
       return critical_radius();
     case 6:
-      return pair->removed_bubbles;
+      return pair->hub.record.removed_bubbles;
     case 7:
-      return pair->removed_gas;
+      return pair->hub.record.removed_gas;
     case 8:
-      return pair->rin;
+      return pair->hub.record.rin;
     default:
       return mean_surface();
   }

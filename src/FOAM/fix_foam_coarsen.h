@@ -19,7 +19,7 @@ FixStyle(foam/coarsen,FixFoamCoarsen);
 #include "fix.h"
 #include "foam_input.h"
 #include "foam_gas.h"
-#include "pair_durian_foam.h"
+#include "pair_foam.h"
 
 #include <string>
 
@@ -41,14 +41,8 @@ class FixFoamCoarsen : public Fix {
   void write_restart(FILE *) override;
   void restart(char *) override;
 
-  // sums over the living bubbles of an accepted state, the same on all ranks
-  struct Population {
-    double bubbles = 0.0, radius_sum = 0.0, gas = 0.0, radius_max = 0.0;
-  };
-  Population population;
-
   bool ready() const { return pair; }    // since its first run
-  void tell(PairDurianFoam &) const;     // what to gather
+  void tell(FoamHub &) const;            // what to gather
   bool changed = false;                  // by fix_modify, so that known rates are outdated
 
   // the law for the sums over contacts that the pair style gathered last; on all ranks, as
@@ -60,14 +54,14 @@ class FixFoamCoarsen : public Fix {
     gas.K = K;
     gas.kappa = kappa;
     gas.law = law;
-    gas.Rin = pair->rin;
+    gas.Rin = pair->hub.record.rin;
     gas.Ain = mean_surface();
     if (through_films) gas.film = here.column(pair->film, 0);
     gas.area = here.column(pair->area, 0);
     using AddFreeSurface = Foam::AddFreeSurface<D, typename Space::Bubbles>;
     if (gas.through_liquid())
-      gas.use(pair->free_surface_known
-                  ? pair->free_surface
+      gas.use(pair->hub.free_surface_known
+                  ? pair->hub.free_surface
                   : here.template sums<Foam::FreeSurface>(
                         nlocal, AddFreeSurface{here.bubbles(), law, gas.area}));
     return gas;
@@ -93,7 +87,7 @@ class FixFoamCoarsen : public Fix {
   bool has_dead() const { return dead; }
 
  protected:
-  class PairDurianFoam *pair;
+  PairFoam *pair;
   Foam::LiquidLaw law;
   double rmin;         // in units of <R_in>
   double ain_given;    // <A_in> if the user gave it, else 0
@@ -104,7 +98,10 @@ class FixFoamCoarsen : public Fix {
 
   bool find_pair();
   FoamInput::Keywords keywords();    // of fix and fix_modify alike
-  double mean_surface() const { return ain_given > 0.0 ? ain_given : pair->ain; }    // <A_in>
+  double mean_surface() const
+  {
+    return ain_given > 0.0 ? ain_given : pair->hub.record.ain;
+  }    // <A_in>
   virtual void take_out_dead();
   void count_particles();
 };

@@ -74,7 +74,7 @@ int FixFoamContacts::setmask()
 
 void FixFoamContacts::init()
 {
-  pair = dynamic_cast<PairDurianFoam *>(force->pair_match("durian/foam", 0));
+  pair = PairFoam::of(lmp);
   if (!pair) error->all(FLERR, "Fix foam/contacts needs one pair_style durian/foam");
   if (pair->kokkosable != kokkosable || (kokkosable && pair->execution_space != execution_space))
     error->all(FLERR,
@@ -82,7 +82,7 @@ void FixFoamContacts::init()
                "suffix kk for all styles of the foam or for none");
   bool integrated = false;
   for (auto &ifix : modify->get_fix_list())
-    if (PairDurianFoam::integrated_by(ifix)) integrated = true;
+    if (FoamHub::integrates(ifix)) integrated = true;
   if (!integrated)
     error->all(FLERR,
                "Fix foam/contacts needs a fix that integrates the foam, fix foam/rkc or foam/abm");

@@ -20,7 +20,7 @@ FixStyle(foam/contacts,FixFoamContacts);
 #include "foam_ages.h"
 #include "foam_history.h"
 #include "foam_reduce.h"
-#include "pair_durian_foam.h"
+#include "pair_foam.h"
 
 #include "atom.h"
 #include "domain.h"
@@ -59,7 +59,7 @@ class FixFoamContacts : public Fix, public FoamFollower {
   double memory_usage() override;
 
  protected:
-  PairDurianFoam *pair = nullptr;
+  PairFoam *pair = nullptr;
   FoamReduce<FoamTotals> reduce;
 
   FoamColumnList all_columns;

@@ -120,7 +120,7 @@ int FixFoamIntegrate::setmask()
 void FixFoamIntegrate::init()
 {
   dim = domain->dimension;
-  pair = dynamic_cast<PairDurianFoam *>(force->pair_match("durian/foam", 0));
+  pair = PairFoam::of(lmp);
   if (!pair) error->all(FLERR, "Fix {} needs one pair_style durian/foam", style);
   if (force->bond || force->angle || force->dihedral || force->improper || force->kspace)
     error->all(FLERR,
@@ -144,7 +144,7 @@ void FixFoamIntegrate::init()
   }
   check_companions();
   time_then = driver.time;
-  if (record.rin > 0.0) pair->go_on_from(record);
+  if (record.rin > 0.0) pair->hub.go_on_from(record);
 
   const bool drifts =
       pair->neighbor_drag && domain->xperiodic && domain->yperiodic && domain->zperiodic;
@@ -157,9 +157,9 @@ void FixFoamIntegrate::init()
 
   // what is switched off is not gathered
 
-  pair->gas_wanted = 0;
-  if (gas) gas->tell(*pair);
-  pair->radii_change = gas != nullptr;
+  pair->hub.gas_wanted = 0;
+  if (gas) gas->tell(pair->hub);
+  pair->hub.radii_change = gas != nullptr;
   lag.active = pair->neighbor_drag && evaluates_again();    // the source takes v itself for l
   if (pair->neighbor_drag) lag.columns.use(atom->nmax);
 }
@@ -204,7 +204,7 @@ Foam::Trial FixFoamIntegrate::attempt(double step, bool first)
   totals = reduce(candidate(step, first));
   const double components = (totals.bubbles + totals.removed) * (dim + (grows() ? 1 : 0));
   double error =
-      Foam::step_error(norm, totals.error, totals.squares, components, pair->rin);
+      Foam::step_error(norm, totals.error, totals.squares, components, pair->hub.record.rin);
   if (totals.bad > 0.0) error = INFINITY;
   return {error, totals.moved, list.margin()};
 }
@@ -290,8 +290,8 @@ void FixFoamIntegrate::remove_small()
     scale = with_dimension(dim, [&]<int D>() { return radius_of_power<D>(factor); });
     redistribute(variable == Variable::RADIUS ? scale : factor);
   }
-  gas->population = {totals.bubbles, totals.radii * scale, totals.gas + totals.gas_removed,
-                     totals.radius_max * scale};
+  pair->hub.population = {totals.bubbles, totals.radii * scale, totals.gas + totals.gas_removed,
+                          totals.radius_max * scale};
   totals.ahead.value += totals.radius_max * (scale - 1.0);
 }
 
@@ -398,7 +398,7 @@ void FixFoamIntegrate::post_neighbor()
 
   // other fixes may just have put bubbles in or taken them out
 
-  if (gas && gas->population.bubbles != bubbles()) take_population();
+  if (gas && pair->hub.population.bubbles != bubbles()) take_population();
 }
 
 // Bubbles that have outgrown the cutoffs need new ones.  A step that writes a restart file
@@ -431,9 +431,9 @@ void FixFoamIntegrate::end_of_step()
 
 void FixFoamIntegrate::post_run()
 {
-  bubbles_last = gas ? gas->population.bubbles : bubbles();    // without the dead
+  bubbles_last = gas ? pair->hub.population.bubbles : bubbles();    // without the dead
   out.end_run();
-  record = pair->record();
+  record = pair->hub.record;
   set_timestep(dt_given);    // minimizers, for one, step by it
   list.give_checks_back();
   list.warn(style, driver.accepted - accepted_then);
@@ -448,7 +448,7 @@ double FixFoamIntegrate::natural_time() const
 {
   const double sigma0 = pair->stiffest();
   if (sigma0 > 0.0) return pair->mu0 / sigma0;
-  return grows() ? Foam::time_of_scaled(gas->K, 1.0, pair->rin) : 1.0;
+  return grows() ? Foam::time_of_scaled(gas->K, 1.0, pair->hub.record.rin) : 1.0;
 }
 
 // by default, one unit of scaled time, or a thousand relaxation times at fixed radii
@@ -459,7 +459,7 @@ double FixFoamIntegrate::largest_step() const
   if (dt_limit > 0.0)
     largest = dt_limit;
   else if (grows())
-    largest = Foam::time_of_scaled(gas->K, 1.0, pair->rin);
+    largest = Foam::time_of_scaled(gas->K, 1.0, pair->hub.record.rin);
   return MIN(largest, stable_step());
 }
 

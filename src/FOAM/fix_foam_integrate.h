@@ -79,7 +79,7 @@ class FixFoamIntegrate : public Fix {
   double memory_usage() override;
 
  protected:
-  PairDurianFoam *pair = nullptr;
+  PairFoam *pair = nullptr;
   FixFoamCoarsen *gas = nullptr;    // null: radii stay as they are
   std::vector<FoamFollower *> followers;
   FoamReduce<Foam::Judgement> reduce;
@@ -103,9 +103,9 @@ class FixFoamIntegrate : public Fix {
 
   Foam::Driver driver;    // steps, and how their length is controlled
   double evaluations = 0.0;
-  double bubbles_last = 0.0;        // their number at the end of the last run
-  double dt_given = 0.0;            // of the timestep command, put back after a run
-  PairDurianFoam::Record record;    // for a pair style that is replaced in mid-simulation
+  double bubbles_last = 0.0;    // their number at the end of the last run
+  double dt_given = 0.0;        // of the timestep command, put back after a run
+  FoamHub::Record record;       // for a pair style that is replaced in mid-simulation
   virtual std::vector<double *> progress();
 
   // per bubble; those that travel with it stand in restart files, too
@@ -234,8 +234,7 @@ class FixFoamIntegrate : public Fix {
 
 // ---------------------------------------------------------------------- loops, for any space
 
-template <class Space>
-Foam::State<typename Space::Bubbles> FixFoamIntegrate::state(Space &here)
+template <class Space> Foam::State<typename Space::Bubbles> FixFoamIntegrate::state(Space &here)
 {
   Foam::State<typename Space::Bubbles> s{here.bubbles()};
   s.q = here.column(columns, Q);
@@ -253,7 +252,7 @@ Foam::State<typename Space::Bubbles> FixFoamIntegrate::state(Space &here)
   s.grows = grows();
   s.variable = variable;
   s.q_unit = Foam::with_dimension(
-      dim, [&]<int D>() { return Foam::slope_of_q<D>(variable, pair->rin); });
+      dim, [&]<int D>() { return Foam::slope_of_q<D>(variable, pair->hub.record.rin); });
   return s;
 }
 
@@ -269,8 +268,7 @@ Foam::Rates<D, typename Space::Bubbles> FixFoamIntegrate::rates(Space &here)
   if (pair->neighbor_drag)
     drag.ambient = {sums.contacts, {sums.vsum[0], sums.vsum[1], sums.vsum[2]}};
   if (drift_removed) {
-    drag.drift =
-        here.template sums<Foam::DriftTotals>(atom->nlocal, Foam::AddDrift<D, B>{drag});
+    drag.drift = here.template sums<Foam::DriftTotals>(atom->nlocal, Foam::AddDrift<D, B>{drag});
     drag.drift_removed = true;
   }
   Foam::Rates<D, B> f{here.bubbles(), drag};
@@ -299,10 +297,7 @@ template <int D, class Space> class FixFoamIntegrate::System {
 
   Fields fields() { return fix.fields<D>(here); }
   Foam::Rates<D, B> rates() { return fix.rates<D>(here); }
-  Foam::Judge<D, B> judge()
-  {
-    return {fields(), fix.gas ? fix.gas->smallest_radius() : 0.0};
-  }
+  Foam::Judge<D, B> judge() { return {fields(), fix.gas ? fix.gas->smallest_radius() : 0.0}; }
   Foam::Work<Fields> work()
   {
     Foam::Work<Fields> w;
@@ -317,7 +312,7 @@ template <int D, class Space> class FixFoamIntegrate::System {
     return here.template totals<T>(n, functor);
   }
   template <class T> T reduce(const T &mine) { return foam_reduce(mine, fix.world); }
-  double length() const { return fix.pair->rin; }
+  double length() const { return fix.pair->hub.record.rin; }
   bool moves_by_itself() const { return fix.domain->box_change; }
   bool others_act() const { return fix.others_act(); }
   bool lags() const { return fix.lag.active; }
@@ -326,17 +321,15 @@ template <int D, class Space> class FixFoamIntegrate::System {
 template <class Space> void FixFoamIntegrate::keep_history_in(Space &here)
 {
   using B = typename Space::Bubbles;
-  Foam::with_dimension(dim, [&]<int D>() {
-    here.for_each(atom->nlocal, Foam::KeepHistory<D, B>{fields<D>(here)});
-  });
+  Foam::with_dimension(
+      dim, [&]<int D>() { here.for_each(atom->nlocal, Foam::KeepHistory<D, B>{fields<D>(here)}); });
 }
 
 template <class Space> void FixFoamIntegrate::take_rates_in(Space &here, bool history)
 {
   using B = typename Space::Bubbles;
   Foam::with_dimension(dim, [&]<int D>() {
-    here.for_each(atom->nlocal,
-                  Foam::TakeRates<D, B>{fields<D>(here), rates<D>(here), history});
+    here.for_each(atom->nlocal, Foam::TakeRates<D, B>{fields<D>(here), rates<D>(here), history});
   });
 }
 

@@ -99,7 +99,8 @@ void FixFoamIntegrate::check_bubbles()
                "set its diameter or delete it",
                style, double(all.bad_radius));
   if (all.bad_place > 0.0)
-    error->all(FLERR, "Fix {}: Non-numeric atom coords of bubble {:.0f}", style, double(all.bad_place));
+    error->all(FLERR, "Fix {}: Non-numeric atom coords of bubble {:.0f}", style,
+               double(all.bad_place));
   if (igroup != 0 && all.bubbles == 0.0)
     error->all(FLERR, "Fix {}: no particle is in group {}, so there is no bubble", style,
                group->names[igroup]);
@@ -196,11 +197,12 @@ void FixFoamIntegrate::setup(int)
   if (!evaluates_again()) {
     double tolerance = 10.0 * driver.control.tolerance;
     if (norm == Foam::Norm::RMS) tolerance *= std::sqrt((dim + 1) * number);    // of one bubble
-    v_same += pair->neighbor_drag ? INFINITY : tolerance * pair->rin / natural_time();
+    v_same += pair->neighbor_drag ? INFINITY : tolerance * pair->hub.record.rin / natural_time();
     qdot_same += std::sqrt(tolerance) * change.qdot;    // contact area ~ sqrt(overlap)
   }
-  const double exchange =
-      gas ? gas->K * std::pow(pair->rin, variable == Foam::Variable::RADIUS ? -1 : dim - 2) : 0.0;
+  const double exchange = gas ? gas->K * std::pow(pair->hub.record.rin,
+                                                  variable == Foam::Variable::RADIUS ? -1 : dim - 2)
+                              : 0.0;
   if (grows() && change.qdot <= 1.0e-12 * exchange && number > 1.0 && !idle_told) {
     idle_told = true;
     if (comm->me == 0)
@@ -227,7 +229,7 @@ void FixFoamIntegrate::setup(int)
     host_wrote();
   }
 
-  record = pair->record();
+  record = pair->hub.record;
 
   // after read_restart the timestep is that of the last step, if the file was written in a run
 
@@ -323,5 +325,5 @@ void FixFoamIntegrate::take_population()
     mine.radius_max.raise(atom->radius[i]);
   }
   const Judgement all = reduce(mine);
-  gas->population = {all.bubbles, all.radii, all.gas, all.radius_max};
+  pair->hub.population = {all.bubbles, all.radii, all.gas, all.radius_max};
 }

@@ -94,29 +94,18 @@ int FixFoamIntegrate::maxsize_restart()
 
 std::vector<double *> FixFoamIntegrate::progress()
 {
-  return {&driver.time,
-          &driver.h,
-          &driver.h_before,
-          &driver.h_last,
-          &driver.accepted,
-          &driver.rejected,
-          &evaluations,
-          &driver.error_last,
-          &bubbles_last,
-          &lag.known,
-          &dt_given,
-          &record.rin,
-          &record.ain,
-          &record.tau,
-          &record.removed_bubbles,
-          &record.removed_gas};
+  return {
+      &driver.time,       &driver.h,    &driver.h_before,   &driver.h_last, &driver.accepted,
+      &driver.rejected,   &evaluations, &driver.error_last, &bubbles_last,  &lag.known,
+      &dt_given,          &record.rin,  &record.ain,        &record.tau,    &record.removed_bubbles,
+      &record.removed_gas};
 }
 
 void FixFoamIntegrate::write_restart(FILE *fp)
 {
   bubbles_last = bubbles();
   if (comm->me != 0) return;
-  if (pair) record = pair->record();
+  if (pair) record = pair->hub.record;
   std::vector<double> values;
   for (const double *one : progress()) values.push_back(*one);
   const int size = static_cast<int>(values.size() * sizeof(double));

@@ -18,7 +18,8 @@ FixFoamRKC::FixFoamRKC(LAMMPS *lmp, int narg, char **arg) : FixFoamIntegrate(lmp
   settings(narg, arg,
            {{"stages",
              [&](const Value &v) {
-               scheme.stages_given = v.is("auto") ? 0 : v.integer(Chebyshev::FEWEST, Chebyshev::MOST);
+               scheme.stages_given =
+                   v.is("auto") ? 0 : v.integer(Chebyshev::FEWEST, Chebyshev::MOST);
              }},
             {"spectral", [&](const Value &v) {
                scheme.spectral.given = v.is("auto") ? 0.0 : v.number(FoamInput::ABOVE, 0.0);

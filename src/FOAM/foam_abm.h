@@ -64,7 +64,7 @@ template <class System> auto attempt_abm(System &system, const Driver &driver, d
   const Scheme scheme = driver.control.scheme;
   system.for_each(Predict{system.fields(), predictor(scheme, h, driver.h_before), first});
   system.evaluate(h);
-  const Correct candidate{system.fields(), system.rates(), system.judge(),
+  const Correct candidate{system.fields(), system.rates(),           system.judge(),
                           system.work(),   scheme == Scheme::SOURCE, h};
   return system.template totals<typename System::Totals>(candidate);
 }

@@ -64,6 +64,7 @@ enum Gather : unsigned {
   FILM = 8,        // sum of film exchange
   AREA = 16,       // sum of contact areas
   ENERGY = 32,     // each bubble's share of the energies
+  ANY = 64,        // what a loop is told when it runs
   DRAG = CONTACTS | VSUM,
   TO_LOOK_AT = CONTACTS | FILM | AREA | ENERGY
 };
@@ -78,13 +79,13 @@ struct ContactSums {
   double *espring, *edurian;    // half of the springs' energies; energy of [L20]
   Members members;              // who is a bubble
 
-  template <unsigned WHAT> FOAM_FUNCTION void clear(int i) const
+  FOAM_FUNCTION void clear(int i, unsigned what) const
   {
-    if constexpr (WHAT & CONTACTS) contacts[i] = 0.0;
-    if constexpr (WHAT & VSUM) vsum[0][i] = vsum[1][i] = vsum[2][i] = 0.0;
-    if constexpr (WHAT & AREA) area[i] = 0.0;
-    if constexpr (WHAT & FILM) film[i] = 0.0;
-    if constexpr (WHAT & ENERGY) espring[i] = edurian[i] = 0.0;
+    if (what & CONTACTS) contacts[i] = 0.0;
+    if (what & VSUM) vsum[0][i] = vsum[1][i] = vsum[2][i] = 0.0;
+    if (what & AREA) area[i] = 0.0;
+    if (what & FILM) film[i] = 0.0;
+    if (what & ENERGY) espring[i] = edurian[i] = 0.0;
   }
 };
 

@@ -13,46 +13,39 @@
 #include "foam_bubbles.h"
 #include "foam_law.h"
 
+#include <stdexcept>
+#include <string>
+
 // The one loop over contacts, for base and KOKKOS styles: forces by a contact law (foam_law.h), and beside
 // them, in the same pass, what drag and gas exchange need.
 
 namespace Foam {
 
-// Every combination that occurs is a loop of its own, so what is off costs nothing: calls
-// run<WHAT>() for the given one, and returns false if there is none
+// Every combination that occurs is a loop of its own, so what is off costs nothing: calls run<WHAT>() for the given
+// one, or run<ANY>() where energy or virial is wanted, too
 
-template <class Run> bool for_each_gathered(unsigned what, Run &&run)
+template <class Run> void with_gathered(unsigned what, bool tallied, Run &&run)
 {
-  switch (what) {
+  if (tallied) return run.template operator()<ANY>();
+  auto either = [&]<unsigned WHAT>() {    // with drag or without
+    if (what & VSUM)
+      run.template operator()<WHAT | DRAG>();
+    else
+      run.template operator()<WHAT>();
+  };
+  switch (what & ~DRAG) {
     case FORCE:
-      run.template operator()<FORCE>();
-      return true;
-    case FORCE | DRAG:
-      run.template operator()<FORCE | DRAG>();
-      return true;
+      return either.template operator()<FORCE>();
     case FORCE | AREA:
-      run.template operator()<FORCE | AREA>();
-      return true;
-    case FORCE | AREA | DRAG:
-      run.template operator()<FORCE | AREA | DRAG>();
-      return true;
+      return either.template operator()<FORCE | AREA>();
     case FORCE | FILM:
-      run.template operator()<FORCE | FILM>();
-      return true;
-    case FORCE | FILM | DRAG:
-      run.template operator()<FORCE | FILM | DRAG>();
-      return true;
+      return either.template operator()<FORCE | FILM>();
     case FORCE | FILM | AREA:
-      run.template operator()<FORCE | FILM | AREA>();
-      return true;
-    case FORCE | FILM | AREA | DRAG:
-      run.template operator()<FORCE | FILM | AREA | DRAG>();
-      return true;
-    case TO_LOOK_AT:
-      run.template operator()<TO_LOOK_AT>();
-      return true;
+      return either.template operator()<FORCE | FILM | AREA>();
+    case TO_LOOK_AT & ~DRAG:
+      return run.template operator()<TO_LOOK_AT>();
     default:
-      return false;
+      throw std::logic_error("Foam package: no loop gathers " + std::to_string(what));
   }
 }
 
@@ -64,13 +57,15 @@ struct Coefficients {
 
 struct NoTally {
   static constexpr bool ON = false;
+  template <class... Any> FOAM_FUNCTION explicit NoTally(const Any &...) {}
 };
 
 // List gives a row for bubble number n of the loop: its index, row.i, and
 //   row.for_each(visit)    calls visit(j, both) for each of its partners j; both: this is the only
 //                          time that the pair occurs, so both get their share
 //
-// Tally, if ON, is told the energy and the force of each pair.
+// Tally, if ON, is told the energy and the force of each pair.  That is asked for at output alone, so one loop, WHAT
+// = ANY, does for whatever is gathered beside.
 // A bubble's own sums are added to what is there, or, if ASSIGN, take its place.
 
 template <int D, unsigned WHAT, bool ASSIGN, class Law, class B, class List, class Tally>
@@ -81,12 +76,25 @@ struct ContactLoop {
   Coefficients coefficients;
   ContactSums sums;
   bool forces_add;    // even then
+  unsigned what;      // if WHAT is ANY
+
+  FOAM_FUNCTION unsigned asked() const
+  {
+    if constexpr (WHAT == ANY)
+      return what;
+    else
+      return WHAT;
+  }
 
   FOAM_ALWAYS_INLINE void operator()(int n, Tally &tally) const
   {
     // numbers are written through pointers that might, for all the compiler knows, point to members
     // of this body: what the inner loop reads is taken out of it
 
+    const unsigned wanted = asked();
+    auto gathers = [wanted](unsigned flags) {
+      return (wanted & flags) != 0;
+    };
     const auto row = list.row(n);
     const ContactSums s = sums;
     const Law force_law = law;
@@ -118,7 +126,7 @@ struct ContactLoop {
 
       [[maybe_unused]] double F_xyz[3] = {};
       [[maybe_unused]] double A = 0.0, exchange = 0.0, half_spring = 0.0, durian = 0.0;
-      if constexpr (WHAT & FORCE) {
+      if (gathers(FORCE)) {
         const double F = force_law.force(sigma * Rin, overlap, Rsum);
         double F_over_r = 0.0;    // stays 0 at r = 0, where force and virial have no direction
         if (r > 0.0) {
@@ -131,21 +139,21 @@ struct ContactLoop {
         for (int k = 0; k < D; k++) fi[k] += F_xyz[k];
       }
       [[maybe_unused]] bool bubbles = true;
-      if constexpr (WHAT & (CONTACTS | VSUM | FILM | AREA))
+      if (gathers(CONTACTS | VSUM | FILM | AREA))
         if (others) bubbles = member_i && s.members(j);
-      if constexpr (WHAT & CONTACTS)
+      if (gathers(CONTACTS))
         if (bubbles) contacts_i += 1.0;
-      if constexpr (WHAT & VSUM)
+      if (gathers(VSUM))
         if (bubbles)
           for (int k = 0; k < D; k++) vsum_i[k] += b.v(j, k);
-      if constexpr (WHAT & (FILM | AREA))
+      if (gathers(FILM | AREA))
         if (bubbles) A = contact_area<D>(r, Ri, Rj);
-      if constexpr (WHAT & AREA) area_i += A;
-      if constexpr (WHAT & FILM) {
+      if (gathers(AREA)) area_i += A;
+      if (gathers(FILM)) {
         exchange = film_exchange(A, Ri, Rj);
         film_i += exchange;
       }
-      if constexpr (WHAT & ENERGY) {
+      if (gathers(ENERGY)) {
         half_spring = 0.5 * force_law.energy(sigma * Rin, overlap, Rsum);
         durian = durian_energy(sigma, overlap);
         espring_i += half_spring;
@@ -153,36 +161,36 @@ struct ContactLoop {
       }
 
       if (!both) return;
-      if constexpr (WHAT & FORCE)
+      if (gathers(FORCE))
         for (int k = 0; k < D; k++) b.f(j, k) -= F_xyz[k];
-      if constexpr (WHAT & CONTACTS)
+      if (gathers(CONTACTS))
         if (bubbles) s.contacts[j] += 1.0;
-      if constexpr (WHAT & VSUM)
+      if (gathers(VSUM))
         if (bubbles)
           for (int k = 0; k < D; k++) s.vsum[k][j] += b.v(i, k);
-      if constexpr (WHAT & FILM) s.film[j] -= exchange;
-      if constexpr (WHAT & AREA) s.area[j] += A;
-      if constexpr (WHAT & ENERGY) {
+      if (gathers(FILM)) s.film[j] -= exchange;
+      if (gathers(AREA)) s.area[j] += A;
+      if (gathers(ENERGY)) {
         s.espring[j] += half_spring;
         s.edurian[j] += durian;
       }
     };
     if (Ri > 0.0) row.for_each(visit);    // the dead touch nobody
 
-    if constexpr (ASSIGN) s.clear<WHAT>(i);
-    if constexpr (WHAT & FORCE)
+    if constexpr (ASSIGN) s.clear(i, wanted);
+    if (gathers(FORCE))
       for (int k = 0; k < 3; k++) {
         if (ASSIGN && !forces_add)
           b.f(i, k) = fi[k];
         else if (k < D)
           b.f(i, k) += fi[k];
       }
-    if constexpr (WHAT & CONTACTS) s.contacts[i] += contacts_i;
-    if constexpr (WHAT & VSUM)
+    if (gathers(CONTACTS)) s.contacts[i] += contacts_i;
+    if (gathers(VSUM))
       for (int k = 0; k < D; k++) s.vsum[k][i] += vsum_i[k];
-    if constexpr (WHAT & FILM) s.film[i] += film_i;
-    if constexpr (WHAT & AREA) s.area[i] += area_i;
-    if constexpr (WHAT & ENERGY) {
+    if (gathers(FILM)) s.film[i] += film_i;
+    if (gathers(AREA)) s.area[i] += area_i;
+    if (gathers(ENERGY)) {
       s.espring[i] += espring_i;
       s.edurian[i] += edurian_i;
     }

@@ -27,8 +27,9 @@ namespace Foam {
 //   shortest()                shorter steps make no sense
 
 struct Trial {
-  double error = 0.0;                  // to compare with the tolerance
-  double reach = 0.0, margin = 0.0;    // how far evaluations went, and for how far they were prepared
+  double error = 0.0;    // to compare with the tolerance
+  double reach = 0.0,
+         margin = 0.0;    // how far evaluations went, and for how far they were prepared
 };
 
 struct Driver {

@@ -41,7 +41,10 @@ struct FreeSurface {
     weight.join(other.weight);
     weight_over_R.join(other.weight_over_R);
   }
-  FOAM_FUNCTION double inverse_rho() const { return inverse_critical_radius(weight, weight_over_R); }
+  FOAM_FUNCTION double inverse_rho() const
+  {
+    return inverse_critical_radius(weight, weight_over_R);
+  }
 };
 
 template <int D> struct Exchange {

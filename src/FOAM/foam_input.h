@@ -12,6 +12,7 @@
 
 #include "error.h"
 #include "lmptype.h"
+#include "utils.h"
 
 #include <cerrno>
 #include <cmath>
@@ -24,7 +25,8 @@
 namespace LAMMPS_NS {
 
 // The arguments of an input command: words that are what they should be, or an error that names the
-// style, the argument and what is allowed.  (Those of LAMMPS' utils name neither, and some throw.)
+// style, the argument and what is allowed.  What a number looks like, LAMMPS' utils say; their own errors do not
+// name the argument.
 //
 //   FoamInput input(error, "Pair style durian/foam", narg, arg);
 //   mu0 = input.argument("mu0").number(FoamInput::ABOVE, 0.0);
@@ -93,8 +95,7 @@ class FoamInput {
       const size_t star = text.find('*');
       auto end = [&](const std::string &part, int otherwise) {
         if (part.empty() && star != std::string::npos) return otherwise;
-        const bool digits = part.find_first_not_of("0123456789") == std::string::npos;
-        if (part.empty() || part.size() > 9 || !digits) refuse(allowed);
+        if (!utils::is_integer(part) || part.size() > 9) refuse(allowed);
         return std::stoi(part);
       };
       const int lo = end(text.substr(0, star), 1);
@@ -134,28 +135,18 @@ class FoamInput {
 
     template <class Allows> double number(const std::string &allowed, const Allows &allows) const
     {
-      const char *const begin = given(allowed);
-      char *end = nullptr;
-      const double x = std::strtod(begin, &end);
-      const bool a_number = consists_of("0123456789+-.eE") && end == begin + text.size();
+      const double x = std::strtod(given(allowed), nullptr);
+      const bool a_number = utils::is_double(text);
       if (!a_number || !std::isfinite(x) || !allows(x))
         refuse(allowed, a_number && std::isinf(x) ? ", which is too large" : "");
       return x;
     }
 
-    bool consists_of(const char *letters) const
-    {
-      return !text.empty() && text.find_first_not_of(letters) == std::string::npos;
-    }
-
     bigint integer(bigint from, bigint to, const std::string &allowed) const
     {
-      const char *const begin = given(allowed);
-      char *end = nullptr;
       errno = 0;
-      const bigint n = std::strtoll(begin, &end, 10);
-      if (!consists_of("0123456789+-") || end != begin + text.size() || errno || n < from || n > to)
-        refuse(allowed);
+      const bigint n = std::strtoll(given(allowed), nullptr, 10);
+      if (!utils::is_integer(text) || errno || n < from || n > to) refuse(allowed);
       return n;
     }
   };

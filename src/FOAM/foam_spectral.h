@@ -160,8 +160,9 @@ template <class Fields, class Rates> struct RenewStart {
 
 class SpectralRadius {
  public:
-  double given = 0.0;           // 0: estimated
-  double displaced = 1.0e-6;    // of the bubble that moves most, in units of length: well above rounding
+  double given = 0.0;    // 0: estimated
+  double displaced =
+      1.0e-6;    // of the bubble that moves most, in units of length: well above rounding
 
   // state of the estimate, kept in restarts
 
@@ -186,13 +187,13 @@ class SpectralRadius {
     if (driver.h_before == 0.0) return true;
     const double most = driver.rejected == rejected_then ? STEPS : FEW;
     return driver.accepted - estimate_step >=
-        std::min(most, std::max(1.0, estimate_step - changed_step));
+           std::min(most, std::max(1.0, estimate_step - changed_step));
   }
 
   template <class System> bool start_is_outdated(System &system) const
   {
     return system.moves_by_itself() ||
-        (system.others_act() && (given > 0.0 || others_change != 0.0));
+           (system.others_act() && (given > 0.0 || others_change != 0.0));
   }
   template <class System> void renew_start(System &system, const Driver &driver)
   {
@@ -207,13 +208,13 @@ class SpectralRadius {
   template <class System> void estimate(System &system, const Driver &driver, bool compare);
 
  private:
-  static constexpr double MARGIN = 1.1;            // an underestimate by less does no harm
-  static constexpr int STEPS = 25, FEW = 10;       // between estimates; if a step was rejected
-  static constexpr int ITERATIONS = 50;            // of an estimate
-  static constexpr double CONVERGED = 0.02;        // relative change of the last iteration
-  static constexpr double FALL = 0.9;              // of the estimate since the last one, at most
-  static constexpr double GONE = 0.5;              // or more: what made it as large is gone
-  static constexpr double NOTICEABLE = 0.01;       // of the tolerance: change of a step by others
+  static constexpr double MARGIN = 1.1;         // an underestimate by less does no harm
+  static constexpr int STEPS = 25, FEW = 10;    // between estimates; if a step was rejected
+  static constexpr int ITERATIONS = 50;         // of an estimate
+  static constexpr double CONVERGED = 0.02;     // relative change of the last iteration
+  static constexpr double FALL = 0.9;           // of the estimate since the last one, at most
+  static constexpr double GONE = 0.5;           // or more: what made it as large is gone
+  static constexpr double NOTICEABLE = 0.01;    // of the tolerance: change of a step by others
 
   template <class System>
   void notice(System &system, const Driver &driver, const FoamMax &change_here)

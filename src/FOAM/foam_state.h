@@ -49,10 +49,10 @@ template <class B> struct State {
   static constexpr int MOST = 4, GAS = 3;
   B b;
   double *q{}, *qdot{};
-  double *start[MOST]{}, *radius_start{};      // y_n
-  double *before[MOST]{};                      // f_{n-1}
-  double *next[MOST]{};                        // f_{n+1}, where the scheme has it; else null
-  double *x_listed[3]{}, *radius_listed{};     // when the neighbor list was built
+  double *start[MOST]{}, *radius_start{};     // y_n
+  double *before[MOST]{};                     // f_{n-1}
+  double *next[MOST]{};                       // f_{n+1}, where the scheme has it; else null
+  double *x_listed[3]{}, *radius_listed{};    // when the neighbor list was built
   VelocityLag lag{};
   bool counts = false;    // bubbles may be removed: count them, sum their gas
   bool grows = false;     // gas is exchanged, radii change

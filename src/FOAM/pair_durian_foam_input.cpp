@@ -64,8 +64,8 @@ void PairDurianFoam::settings(int narg, char **arg)
                    }},
                   {"rin",
                    [&](const Value &v) {
-                     rin = v.number(FoamInput::ABOVE, 0.0);
-                     rin_fixed = true;
+                     hub.record.rin = v.number(FoamInput::ABOVE, 0.0);
+                     hub.rin_fixed = true;
                    }},
                   {"headroom", [&](const Value &v) {
                      headroom = v.number(FoamInput::AT_LEAST, 1.0);
@@ -126,9 +126,18 @@ void PairDurianFoam::read_restart(FILE *fp)
 
 void PairDurianFoam::write_restart_settings(FILE *fp)
 {
-  double values[SETTINGS] = {
-      mu0,      rin, double(rin_fixed), ain,         double(ain_fixed), double(neighbor_drag),
-      headroom, tau, removed_bubbles,   removed_gas, double(law.index)};
+  const FoamHub::Record &r = hub.record;
+  double values[SETTINGS] = {mu0,
+                             r.rin,
+                             double(hub.rin_fixed),
+                             r.ain,
+                             double(hub.ain_fixed),
+                             double(neighbor_drag),
+                             headroom,
+                             r.tau,
+                             r.removed_bubbles,
+                             r.removed_gas,
+                             double(law.index)};
   std::copy(law.parameters.begin(), law.parameters.end(),
             values + SETTINGS - law.parameters.size());
   fwrite(values, sizeof(double), SETTINGS, fp);
@@ -139,31 +148,33 @@ void PairDurianFoam::read_restart_settings(FILE *fp)
   double values[SETTINGS];
   if (comm->me == 0) utils::sfread(FLERR, values, sizeof(double), SETTINGS, fp, nullptr, error);
   MPI_Bcast(values, SETTINGS, MPI_DOUBLE, 0, world);
+  FoamHub::Record &r = hub.record;
   mu0 = values[0];
-  rin = values[1];
-  rin_fixed = values[2] != 0.0;
-  ain = values[3];
-  ain_fixed = values[4] != 0.0;
+  r.rin = values[1];
+  hub.rin_fixed = values[2] != 0.0;
+  r.ain = values[3];
+  hub.ain_fixed = values[4] != 0.0;
   neighbor_drag = values[5] != 0.0;
   headroom = values[6];
-  tau = values[7];
-  removed_bubbles = values[8];
-  removed_gas = values[9];
+  r.tau = values[7];
+  r.removed_bubbles = values[8];
+  r.removed_gas = values[9];
   law.index = static_cast<int>(values[10]);
   std::copy_n(values + SETTINGS - law.parameters.size(), law.parameters.size(),
               law.parameters.begin());
 
   // LAMMPS reads what is there, be it a damaged file or that of another version of this style
 
-  const bool sound = mu0 > 0.0 && rin >= 0.0 && ain >= 0.0 && headroom >= 1.0 && tau >= 0.0 &&
-                     removed_bubbles >= 0.0;
-  if (!sound || !std::isfinite(mu0 + rin + ain + headroom + tau + removed_bubbles + removed_gas))
+  const bool sound = mu0 > 0.0 && r.rin >= 0.0 && r.ain >= 0.0 && headroom >= 1.0 && r.tau >= 0.0 &&
+                     r.removed_bubbles >= 0.0;
+  if (!sound ||
+      !std::isfinite(mu0 + r.rin + r.ain + headroom + r.tau + r.removed_bubbles + r.removed_gas))
     error->all(
         FLERR,
         "Pair style durian/foam: the restart file has mu0 {} (must be > 0), mean radius {} and "
         "mean surface {} (must be >= 0), headroom {} (must be >= 1), tau {} and {} removed bubbles "
         "(must be >= 0): it is damaged, or of another version of this style",
-        mu0, rin, ain, headroom, tau, removed_bubbles);
+        mu0, r.rin, r.ain, headroom, r.tau, r.removed_bubbles);
   bool law_known = false;
   Foam::with_law(law, [&](const auto &chosen) {
     law_known = true;
@@ -175,7 +186,7 @@ void PairDurianFoam::read_restart_settings(FILE *fp)
     error->all(FLERR,
                "Pair style durian/foam: the restart file has no law that this version knows: it is "
                "damaged, or of another version of this style");
-  if (rin_fixed && ain_fixed) tell_means("from the restart file");
+  if (hub.rin_fixed && hub.ain_fixed) hub.tell_means("from the restart file");
 }
 
 void PairDurianFoam::write_data(FILE *fp)

@@ -12,7 +12,6 @@
 
 #include "foam_kokkos.h"
 #include "foam_travelling_kokkos.h"
-#include "pair_durian_foam_kokkos.h"
 
 #include "atom_kokkos.h"
 #include "comm.h"
@@ -59,7 +58,7 @@ class FixFoamIntegrateKokkos : public FoamTravellingKokkos<Style, DeviceType> {
   void take_listed() override
   {
     this->take_listed_in(here);
-    pair_there()->take_list();
+    this->pair->take_list();
   }
   double largest_radius() override { return this->largest_radius_in(here); }
   double count_bubbles() override { return this->count_bubbles_in(here); }
@@ -78,7 +77,7 @@ class FixFoamIntegrateKokkos : public FoamTravellingKokkos<Style, DeviceType> {
     Modify *const modify = this->modify;
     Pair *const pair = this->force->pair;
     timer->stamp(Timer::MODIFY);
-    if (!pair_there()->refresh_ghosts(PairThere::Ghosts::EVERYTHING)) this->comm->forward_comm();
+    if (!this->pair->refresh_ghosts(PairFoam::Ghosts::EVERYTHING)) this->comm->forward_comm();
     timer->stamp(Timer::COMM);
 
     if (!pair->fuse_force_clear_flag || modify->n_pre_force) clear_forces();
@@ -97,9 +96,6 @@ class FixFoamIntegrateKokkos : public FoamTravellingKokkos<Style, DeviceType> {
   }
 
  private:
-  using PairThere = PairDurianFoamKokkos<DeviceType>;
-  PairThere *pair_there() { return static_cast<PairThere *>(this->pair); }    // see init()
-
   void clear_forces()
   {
     this->atomKK->k_f.clear_sync_state();

@@ -239,7 +239,7 @@ template <class DeviceType> class FoamKokkos : protected Pointers {
   }
 
   FoamColumns *residuals = nullptr;    // see FoamKokkosBubbles; of an integrator
-  int groupbit = Foam::GROUP_ALL;    // of the bubbles
+  int groupbit = Foam::GROUP_ALL;      // of the bubbles
 
  private:
   uint64_t written;

@@ -90,7 +90,7 @@ template <class DeviceType> void PairDurianFoamKokkos<DeviceType>::compute(int e
     comm->forward_comm(this);
   }
   ghosts_fresh = false;
-  gather(Foam::FORCE | (neighbor_drag ? Foam::DRAG : 0u) | gas_wanted);
+  gather(gathered_with_forces());
 
   if (eflag_atom) {
     k_eatom.template modify<DeviceType>();
@@ -208,7 +208,7 @@ template <class DeviceType> bool PairDurianFoamKokkos<DeviceType>::refresh_ghost
 
 template <class DeviceType> bool PairDurianFoamKokkos<DeviceType>::sends_radii() const
 {
-  return radii_change && !lmp->kokkos->forward_comm_legacy;
+  return hub.radii_change && !lmp->kokkos->forward_comm_legacy;
 }
 
 template <class DeviceType>
@@ -321,8 +321,8 @@ KOKKOS_INLINE_FUNCTION void do_chunk(const Loop &loop, int c, int chunk, int nlo
 {
   const int begin = c * chunk, end = begin + chunk < nlocal ? begin + chunk : nlocal;
   for (int i = begin; i < end; i++) {
-    loop.sums.template clear<WHAT>(i);
-    if constexpr (WHAT & Foam::FORCE)
+    loop.sums.clear(i, loop.asked());
+    if constexpr (WHAT & (Foam::FORCE | Foam::ANY))
       if (clear)
         for (int k = 0; k < 3; k++) loop.b.f(i, k) = 0.0;
   }
@@ -336,7 +336,7 @@ template <unsigned WHAT, bool CHUNKS, class Loop> struct Contacts {
   bool clear;
   KOKKOS_INLINE_FUNCTION void operator()(int n) const
   {
-    Foam::NoTally none;
+    Foam::NoTally none{};
     if constexpr (CHUNKS)
       do_chunk<WHAT>(loop, n, chunk, nlocal, clear, none);
     else
@@ -357,8 +357,7 @@ template <int D, unsigned WHAT, bool CHUNKS, class Loop> struct SummedContacts {
     Contacts<WHAT, CHUNKS, Loop>{loop, chunk, nlocal, clear}(n);
     const int begin = n * chunk, end = begin + chunk < nlocal ? begin + chunk : nlocal;
     for (int i = begin; i < end; i++)
-      if (loop.sums.members(i))
-        all.template add<D>(law, loop.b.radius(i), loop.sums.area[i]);
+      if (loop.sums.members(i)) all.template add<D>(law, loop.b.radius(i), loop.sums.area[i]);
   }
 };
 
@@ -384,50 +383,42 @@ template <unsigned WHAT, bool CHUNKS, class Loop, class DeviceType> struct Talli
 template <class DeviceType> void PairDurianFoamKokkos<DeviceType>::gather_contacts(unsigned what)
 {
   take_list();
-  free_surface_known = false;
-  bool done = false;
+  hub.free_surface_known = false;
   Foam::with_law(law, [&](const auto &chosen) {
-    done = Foam::for_each_gathered(what, [&]<unsigned WHAT>() {
-      Foam::with_dimension(domain->dimension, [&]<int D>() { gather_in<D, WHAT>(chosen); });
+    Foam::with_gathered(what, evflag, [&]<unsigned WHAT>() {
+      Foam::with_dimension(domain->dimension, [&]<int D>() { gather_in<D, WHAT>(chosen, what); });
     });
   });
-  if (!done) error->one(FLERR, "Pair style durian/foam: no loop gathers {}", what);
 }
 
 template <class DeviceType>
 template <int D, unsigned WHAT, class Law>
-void PairDurianFoamKokkos<DeviceType>::gather_in(const Law &chosen)
+void PairDurianFoamKokkos<DeviceType>::gather_in(const Law &chosen, unsigned what)
 {
   using B = typename FoamKokkos<DeviceType>::Bubbles;
   using Rows = FoamRows<DeviceType>;
   const int nlocal = atom->nlocal;
   const bool clear = fuse_force_clear_flag;
-  const Foam::Coefficients coefficients{sigma0_there.data(), atom->ntypes, rin};
+  const Foam::Coefficients coefficients{sigma0_there.data(), atom->ntypes, hub.record.rin};
   const Foam::ContactSums sums = contact_sums(here);
 
   auto run = [&]<bool CHUNKS>() {
     const int n = CHUNKS ? (nlocal + chunk - 1) / chunk : nlocal;
-    if constexpr (WHAT & Foam::FORCE) {
-      if (evflag) {
-        using Tally = KokkosTally<DeviceType>;
-        using Loop = Foam::ContactLoop<D, WHAT, !CHUNKS, Law, B, Rows, Tally>;
-        const Loop loop{here.bubbles(), rows, chosen, coefficients, sums, !clear};
-        const Tally tally{nullptr, eflag_atom != 0, vflag_atom != 0,
-                          k_eatom.template view<DeviceType>(), k_vatom.template view<DeviceType>()};
-        const auto all = here.template reduce<EnergyVirial>(
-            n, TalliedContacts<WHAT, CHUNKS, Loop, DeviceType>{loop, chunk, nlocal, clear, tally});
-        if (eflag_global) eng_vdwl += all.energy;
-        if (vflag_global)
-          for (int k = 0; k < 6; k++) virial[k] += all.virial[k];
-        return;
-      }
-    }
-    using Loop = Foam::ContactLoop<D, WHAT, !CHUNKS, Law, B, Rows, Foam::NoTally>;
-    const Loop loop{here.bubbles(), rows, chosen, coefficients, sums, !clear};
-    if constexpr ((WHAT & Foam::FORCE) && (WHAT & Foam::AREA)) {
-      free_surface = here.template sums<Foam::FreeSurface>(
-          n, SummedContacts<D, WHAT, CHUNKS, Loop>{loop, chunk, nlocal, clear, liquid_law});
-      free_surface_known = true;
+    using Tally = std::conditional_t<WHAT == Foam::ANY, KokkosTally<DeviceType>, Foam::NoTally>;
+    using Loop = Foam::ContactLoop<D, WHAT, !CHUNKS, Law, B, Rows, Tally>;
+    const Loop loop{here.bubbles(), rows, chosen, coefficients, sums, !clear, what};
+    if constexpr (WHAT == Foam::ANY) {
+      const Tally tally{nullptr, eflag_atom != 0, vflag_atom != 0,
+                        k_eatom.template view<DeviceType>(), k_vatom.template view<DeviceType>()};
+      const auto all = here.template reduce<EnergyVirial>(
+          n, TalliedContacts<WHAT, CHUNKS, Loop, DeviceType>{loop, chunk, nlocal, clear, tally});
+      if (eflag_global) eng_vdwl += all.energy;
+      if (vflag_global)
+        for (int k = 0; k < 6; k++) virial[k] += all.virial[k];
+    } else if constexpr ((WHAT & Foam::FORCE) && (WHAT & Foam::AREA)) {
+      hub.free_surface = here.template sums<Foam::FreeSurface>(
+          n, SummedContacts<D, WHAT, CHUNKS, Loop>{loop, chunk, nlocal, clear, hub.liquid_law});
+      hub.free_surface_known = true;
     } else
       here.for_each(n, Contacts<WHAT, CHUNKS, Loop>{loop, chunk, nlocal, clear});
   };

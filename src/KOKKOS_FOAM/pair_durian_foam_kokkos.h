@@ -51,17 +51,16 @@ template <class DeviceType> class PairDurianFoamKokkos : public PairDurianFoam, 
   // On a single rank each ghost is the image of an owned bubble: one loop brings them up to date,
   // in everything instead of LAMMPS' communication, or in radii beside it.  False if there is none.
 
-  enum class Ghosts { RADII, EVERYTHING };
-  bool refresh_ghosts(Ghosts);
+  bool refresh_ghosts(Ghosts) override;
 
   // of the list taken last; a chunk of rows is the work of one thread
 
   const FoamRows<DeviceType> &contact_rows() const { return rows; }
   int rows_at_once() const { return chunk; }
 
-  void take_list();    // LAMMPS has built it, and ghosts are where their owners are
+  void take_list() override;
 
-  using PairDurianFoam::gather;
+  using PairFoam::gather;
 
  protected:
   void gather_contacts(unsigned) override;
@@ -90,7 +89,7 @@ template <class DeviceType> class PairDurianFoamKokkos : public PairDurianFoam, 
   void make_rows();
   void make_owners();
   FoamGhosts<DeviceType> ghosts() const;
-  template <int D, unsigned WHAT, class Law> void gather_in(const Law &);
+  template <int D, unsigned WHAT, class Law> void gather_in(const Law &, unsigned what);
 };
 
 }    // namespace LAMMPS_NS

@@ -121,10 +121,7 @@ class Springs {
   TwoFields fields() { return {numbers, 2}; }
   GivenRates rates() { return {rates_there.data()}; }
   AddErrors judge() { return {}; }
-  Work<TwoFields> work()
-  {
-    return {{scratch[0].data(), scratch[1].data()}, scratch[2].data()};
-  }
+  Work<TwoFields> work() { return {{scratch[0].data(), scratch[1].data()}, scratch[2].data()}; }
   void evaluate(double)
   {
     evaluations++;
@@ -226,8 +223,7 @@ Exact exact(const Bubble &b, double t)
   }
   const double w = std::sqrt(-d), S = (b.v + g * b.x) / w;
   const double c = std::cos(w * t), s = std::sin(w * t), e = std::exp(-g * t);
-  return {e * (b.x * c + S * s),
-          e * ((-g * b.x + w * S) * c + (-g * S - w * b.x) * s)};
+  return {e * (b.x * c + S * s), e * ((-g * b.x + w * S) * c + (-g * S - w * b.x) * s)};
 }
 
 const std::vector<Bubble> SOFT{{1.0, 1.0, 0.5, 1.0, 0.0}, {2.0, 1.0, 3.0, -0.5, 0.7}};
