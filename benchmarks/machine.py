@@ -136,6 +136,6 @@ def lammps(command, script, directory, variables, environment=None, timeout=None
     if process.returncode:
         error = re.search(r"^(ERROR.*)", text, re.M)
         late = " (out of time)" if seconds >= (timeout or 86400) else ""
-        raise Failed((error[1] if error else f"status {process.returncode}{late}: " +
-                      " | ".join(text.splitlines()[-3:])))
+        raise Failed(error[1] if error else f"status {process.returncode}{late}: " +
+                     " | ".join(text.splitlines()[-3:]))
     return text, usage.ru_maxrss / 1024, device, seconds

@@ -100,7 +100,7 @@ def read_dump(path):
 
 def three_frames(directory):
     """First, middle and last snapshot; in the middle ln N is half-way between the others."""
-    first = last = middle = None
+    first = last = middle = best = None
     for last in read_dump(directory / "last.lammpstrj"):
         pass
     for frame in read_dump(directory / "foam.lammpstrj") if last else ():

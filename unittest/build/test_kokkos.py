@@ -7,7 +7,6 @@ nothing is optimized. With FOAM_TEST_FULL_BUILD set, LAMMPS for the host is comp
 
 import re
 import shutil
-import subprocess
 
 import pytest
 

@@ -225,7 +225,6 @@ def test_snapshots_at_values_of_tau_and_numbers_of_bubbles(tmp_path):
     assert done.returncode == 0, done.stdout
     series = plot.read_series(tmp_path / "series.csv")
     assert np.all(np.diff(series["tau"]) >= 0)          # tau goes on from run to run
-    by_step = {int(step): i for i, step in enumerate(series["step"])}
 
     # at the first step that has reached it; a line of the table is up to two steps away
     at_tau = frames(tmp_path / "tau.lammpstrj")

@@ -6,7 +6,6 @@ from it; in 2D and 3D, with base styles and with KOKKOS styles on one and two th
 """
 
 import os
-import shutil
 import subprocess
 
 import pytest

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from ways import (FULL_BUILD, KOKKOS_STYLES, LAMMPS_BUILD, OURS, PROJECT, STYLES, check_style_headers,
+from ways import (FULL_BUILD, KOKKOS_STYLES, LAMMPS_BUILD, OURS, PROJECT, check_style_headers,
                   check_styles, cmake, compile_files, configure, lammps_tree, run)
 
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from foams import SHORT
-from scenes import INTEGRATORS, Scene, anywhere, box_for, cases, last, radii
+from scenes import INTEGRATORS, Scene, anywhere, cases, last, radii
 
 PHI = [0.01, 0.3, 0.64, 0.84, 1.0, 1.3]
 

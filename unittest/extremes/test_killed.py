@@ -14,7 +14,6 @@ import subprocess
 from pathlib import Path
 
 import numpy as np
-import pytest
 
 from runner import HANG, program
 from scenes import FULL, INTEGRATORS, anywhere, cases, last

@@ -7,7 +7,6 @@ units are changed on one side.)
 """
 
 import numpy as np
-import pytest
 
 from scenes import INTEGRATORS, anywhere, cases, last
 

@@ -33,7 +33,7 @@ NAMES = ["plain", "3D", "neighbor drag", "neighbor drag 3D on 2 ranks", "drift r
 
 @pytest.mark.parametrize("name", NAMES)
 @pytest.mark.parametrize("way", ["poisoned", "poisoned host"])
-def test_same_as_elsewhere(tmp_path, of_base_styles, name, way):    # noqa: F811
+def test_same_as_elsewhere(tmp_path, of_base_styles, name, way):
     assert_same(of_base_styles(name), run(styles.Runner(way, tmp_path), name), scene(name)[3])
 
 
