@@ -127,6 +127,16 @@ FoamTotals FixFoamContacts::follow(double later)
   return follow_in(here, rows, list->inum, MAX(1, nlocal), later);
 }
 
+// only if the reach of a contact is half a side of the box or more
+
+bool FixFoamContacts::images_may_touch() const
+{
+  bool may = domain->triclinic;
+  for (int k = 0; k < domain->dimension; k++)
+    if (domain->periodicity[k] && domain->prd[k] <= 2.0 * neighbor->cutneighmax) may = true;
+  return may;
+}
+
 void FixFoamContacts::take(const FoamTotals &found)
 {
   history.commit();

@@ -72,6 +72,7 @@ class FixFoamContacts : public Fix, public FoamFollower {
   virtual FoamTotals follow(double later);
   template <class Space, class List>
   FoamTotals follow_in(Space &here, const List &list, int nrows, int chunk, double later);
+  bool images_may_touch() const;
   virtual void show_there();
   template <class Space> void show_in(Space &here);
   virtual void host_reads() {}
@@ -112,7 +113,8 @@ FoamTotals FixFoamContacts::follow_in(Space &here, const List &rows, int nrows, 
       nrows,
       nlocal,
       chunk,
-      domain->dimension == 2};
+      domain->dimension == 2,
+      images_may_touch()};
   return here.template totals<FoamTotals>(nchunks, body);
 }
 

@@ -50,7 +50,7 @@ template <class B, class List> struct FollowContacts {
   ContactRecords before, now;
   double later;
   int nrows, nlocal, chunk;
-  bool flat;
+  bool flat, images;    // may two bubbles touch through more than one image
 
   FOAM_FUNCTION void operator()(int c, LAMMPS_NS::FoamTotals &all) const
   {
@@ -64,9 +64,7 @@ template <class B, class List> struct FollowContacts {
       const int i = row.i;
       if (!(b.radius(i) > 0.0)) continue;    // the dead touch nobody
       row.for_each([&](int j, auto both) {
-        if (!touch(i, j)) return;
-        follow(i, j, all);
-        if (both) follow(j, i, all);
+        if (touch(i, j)) meet(i, j, both, all);
       });
     }
     for (int i = begin; i < end; i++)
@@ -81,18 +79,30 @@ template <class B, class List> struct FollowContacts {
     return del[0] * del[0] + del[1] * del[1] + del[2] * del[2] < Rsum * Rsum && Rj > 0.0;
   }
 
+  // partners keep the same age, so one of them tells
+
+  FOAM_FUNCTION void meet(int i, int j, bool both, LAMMPS_NS::FoamTotals &all) const
+  {
+    const LAMMPS_NS::tagint id_i = b.tag(i), id_j = b.tag(j);
+    if (id_i == id_j) return;                               // a bubble and its own image
+    const bool i_has = images && now.find(i, id_j) >= 0;    // by another image
+    const bool j_has = !both || (images && now.find(j, id_i) >= 0);
+    if (i_has && j_has) return;
+    const int was = before.find(i, id_j);
+    const double age = was < 0 ? 0.0 : before.value(i, was, AGE) + later;
+    if (!i_has) keep(i, id_i, id_j, was < 0, age, all);
+    if (!j_has) keep(j, id_j, id_i, was < 0, age, all);
+  }
+
   // sums take a contact once, from the partner with the lower ID
 
-  FOAM_FUNCTION void follow(int i, int j, LAMMPS_NS::FoamTotals &all) const
+  FOAM_FUNCTION void keep(int i, LAMMPS_NS::tagint own, LAMMPS_NS::tagint other, bool is_new,
+                          double age, LAMMPS_NS::FoamTotals &all) const
   {
-    const LAMMPS_NS::tagint other = b.tag(j);
-    if (now.find(i, other) >= 0) return;    // by another image
-    const int was = before.find(i, other);
-    const double age = was < 0 ? 0.0 : before.value(i, was, AGE) + later;
     const int m = now.add(i, other);
     if (m >= 0) now.value(i, m, AGE) = age;
-    if (other < b.tag(i)) return;
-    if (was < 0) all.sum[FORMED] += 1.0;
+    if (other < own) return;
+    if (is_new) all.sum[FORMED] += 1.0;
     all.sum[PRESENT] += 1.0;
     all.sum[AGES] += age;
     if (age > all.max[OLDEST]) all.max[OLDEST] = age;

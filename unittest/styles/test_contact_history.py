@@ -175,6 +175,17 @@ def test_many_contacts(lmp):
         assert max(frame["f_ages[1]"].max() for frame in result.dump("dump")) > 12
 
 
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_through_two_images(lmp, ranks):
+    """Bubbles that touch on both sides, and one that touches itself: pairs of bubbles, each once."""
+    x, R = [[1, 5], [6, 5], [3.5, 9.9]], [3.0, 2.2, 5.5]
+    lines = text(run="run 25", step="abm 1e-3 dtmax 1e-4")
+    lines = re.sub("fix +gas .*", "", lines).replace("f_gas[7]", "")    # which ends a foam of such bubbles
+    result = lmp(lines, files={"data": data_file([10, 10], x, R)}, ranks=ranks)
+    count = assert_counted(result.thermo[0], result.dump("dump"))
+    assert count.of_all()[:3] == [3, 0, 0] and count.of_all()[3] == pytest.approx(25e-4, rel=1e-12)
+
+
 # ---- runs after one another ---------------------------------------------------------------------
 
 @pytest.mark.parametrize("ranks", [1, 2, 4])
