@@ -18,6 +18,7 @@
 #include "domain.h"
 #include "error.h"
 #include "force.h"
+#include "group.h"
 #include "memory.h"
 #include "modify.h"
 #include "neighbor.h"
@@ -30,9 +31,6 @@ using namespace FixConst;
 FixFoamContacts::FixFoamContacts(LAMMPS *lmp, int narg, char **arg)
     : Fix(lmp, narg, arg), reduce(world)
 {
-  if (igroup != 0)
-    error->all(FLERR, "Fix foam/contacts needs group all, since both bubbles keep their contact");
-
   using Value = FoamInput::Value;
   FoamInput input(error, "Fix foam/contacts", narg - 3, arg + 3);
   input.keywords({{"trial", [&](const Value &v) {
@@ -80,12 +78,17 @@ void FixFoamContacts::init()
     error->all(FLERR,
                "Fix foam/contacts and pair style durian/foam must run in the same place: use the "
                "suffix kk for all styles of the foam or for none");
-  bool integrated = false;
+  Fix *integrator = nullptr;
   for (auto &ifix : modify->get_fix_list())
-    if (FoamHub::integrates(ifix)) integrated = true;
-  if (!integrated)
+    if (FoamHub::integrates(ifix)) integrator = ifix;
+  if (!integrator)
     error->all(FLERR,
                "Fix foam/contacts needs a fix that integrates the foam, fix foam/rkc or foam/abm");
+  if (integrator->igroup != igroup)
+    error->all(FLERR,
+               "Fix foam/contacts has group {} and fix {} group {}: the group says who is a "
+               "bubble, and must be the same",
+               group->names[igroup], integrator->style, group->names[integrator->igroup]);
 
   // each rank needs all contacts of its bubbles. With newton on, a half list has those across ranks on one
   // of them only: then a list of its own

@@ -107,6 +107,7 @@ FoamTotals FixFoamContacts::follow_in(Space &here, const List &rows, int nrows, 
   const Foam::FollowContacts<typename Space::Bubbles, List> body{
       here.bubbles(),
       rows,
+      here.members(groupbit),
       history.records(here, history.committed),
       history.records(here, history.trial),
       later,

@@ -47,6 +47,7 @@ template <class B, class List> struct FollowContacts {
   static constexpr const char *NAME = "foam: ages of contacts";
   B b;
   List list;
+  Members member;
   ContactRecords before, now;
   double later;
   int nrows, nlocal, chunk;
@@ -62,9 +63,9 @@ template <class B, class List> struct FollowContacts {
     for (int n = begin; n < end && n < nrows; n++) {
       const auto row = list.row(n);
       const int i = row.i;
-      if (!(b.radius(i) > 0.0)) continue;    // the dead touch nobody
+      if (!(b.radius(i) > 0.0) || !member(i)) continue;    // the dead touch nobody
       row.for_each([&](int j, auto both) {
-        if (touch(i, j)) meet(i, j, both, all);
+        if (touch(i, j) && member(j)) meet(i, j, both, all);
       });
     }
     for (int i = begin; i < end; i++)

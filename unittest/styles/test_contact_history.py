@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 from foams import foam
+from test_members import AMONG, COEFFICIENTS
 from runner import HEAD, PRECISE, data_file, tiled
 
 LIMIT = 1e-12
@@ -128,6 +129,7 @@ SCENES = {
     "flow, 4 ranks": dict(after="fix flow all addforce 0.4 0.2 0", ranks=4),    # across the borders
     "newton off": dict(before="newton off", ranks=2),
     "host fix, 2 ranks": dict(after="fix first all store/state 0 xu", ranks=2),
+    "among others, 2 ranks": dict(ranks=2),    # particles that are no bubbles
     "after the integrator": dict(ages="", after=AGES),
 }
 
@@ -140,6 +142,9 @@ def run(lmp, name, **more):
         lines = lines.replace("newton off", "")
     if name == "after the integrator":    # output refers to it
         lines = lines.replace(AGES + "\n", "").replace(OUTPUT, AGES + OUTPUT)
+    if "among others" in name:
+        lines = re.sub("(gas|ages|step|dump +d) all", r"\1 bubbles", lines)
+        lines = lines.replace("read_data data\n", AMONG).replace("pair_coeff    * * 1.0\n", COEFFICIENTS)
     return lmp(lines.replace("comm_style tiled", tiled(lmp)), files=files(dim), ranks=ranks,
                check="host fix" not in name)
 
