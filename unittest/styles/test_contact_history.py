@@ -277,3 +277,22 @@ def test_output_between_runs(lmp):
     assert 0 < kept.sum() < len(last)
     for column in ("f_ages[1]", "f_ages[2]", "f_ages[3]"):
         assert np.array_equal(last[column][kept], after[column])
+
+
+# ---- errors -------------------------------------------------------------------------------------
+
+HYBRID = "pair_style hybrid/overlay zero 2.0 durian/foam 1.0\npair_coeff * * durian/foam 1.0\npair_coeff * * zero"
+BAD = {
+    "another group": (lambda lines: lines.replace(AGES, "group g id 1:9\nfix ages g foam/contacts"),
+                      "group g and fix foam/abm group all"),
+    "no integrator": (lambda lines: re.sub("fix +step.*|f_step.4.", "", re.sub("fix +gas.*|f_gas.7.", "", lines)),
+                      "needs a fix that integrates the foam"),
+    "hybrid, newton on": (lambda lines: "newton on\n" + re.sub("pair_style.*\n.*", HYBRID, lines), "needs newton off"),
+}
+
+
+@pytest.mark.parametrize("name", BAD)
+def test_refused(base_lmp, name):
+    change, words = BAD[name]
+    result = base_lmp(change(text()), files=files(), check=False)
+    assert result.returncode and "Fix foam/contacts" in result.errors[0] and words in result.errors[0]
