@@ -116,8 +116,8 @@ void ComputeFoamBubble::compute_peratom()
   // the sums of the pair style may be those of another state, or fewer: gather them all
 
   gather();
-  FoamHost here(lmp);
-  look(here, Foam::Values<int>{atom->mask}, wanted.count == 1 ? vector : array[0]);
+  FoamHost space(lmp);
+  fill(space, Foam::Values<int>{atom->mask}, wanted.count == 1 ? vector : array[0]);
 }
 
 double ComputeFoamBubble::memory_usage()

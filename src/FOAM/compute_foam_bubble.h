@@ -49,22 +49,22 @@ class ComputeFoamBubble : public Compute {
 
   // fills out[nlocal][wanted.count] from what the pair style has gathered
 
-  template <class Space, class Masks> void look(Space &here, const Masks &mask, double *out)
+  template <class Space, class Masks> void fill(Space &space, const Masks &mask, double *out)
   {
-    Foam::with_dimension(domain->dimension, [&]<int D>() { look_in<D>(here, mask, out); });
+    Foam::with_dimension(domain->dimension, [&]<int D>() { fill_in<D>(space, mask, out); });
   }
 
  private:
   template <int D, class Space, class Masks>
-  void look_in(Space &here, const Masks &mask, double *out)
+  void fill_in(Space &space, const Masks &mask, double *out)
   {
     using B = typename Space::Bubbles;
-    here.groupbit = pair->hub.groupbit;
-    const auto gas_law = gas ? gas->exchange<D>(here, atom->nlocal) : Foam::Exchange<D>();
-    const Foam::LookAt<D, B, Masks> body{
-        here.bubbles(), mask,    groupbit | pair->hub.groupbit, out,
-        wanted,         gas_law, pair->contact_sums(here)};
-    here.for_all(atom->nlocal, body);
+    space.groupbit = pair->hub.groupbit;
+    const auto gas_law = gas ? gas->exchange<D>(space, atom->nlocal) : Foam::Exchange<D>();
+    const Foam::FillDiagnostics<D, B, Masks> functor{
+        space.bubbles(), mask,    groupbit | pair->hub.groupbit, out,
+        wanted,          gas_law, pair->contact_sums(space)};
+    space.for_all(atom->nlocal, functor);
   }
 };
 

@@ -30,8 +30,8 @@ FixFoamABM::FixFoamABM(LAMMPS *lmp, int narg, char **arg) : FixFoamIntegrate(lmp
 
 Foam::Judgement FixFoamABM::candidate(double step, bool first)
 {
-  FoamHost here(lmp, groupbit);
-  return Foam::with_dimension(dim, [&]<int D>() { return candidate_in<D>(here, step, first); });
+  FoamHost space(lmp, groupbit);
+  return Foam::with_dimension(dim, [&]<int D>() { return candidate_in<D>(space, step, first); });
 }
 
 // the source takes the rates at the predicted state for those at the corrected one

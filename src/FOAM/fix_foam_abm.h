@@ -30,11 +30,11 @@ class FixFoamABM : public FixFoamIntegrate {
  protected:
   Foam::Judgement candidate(double, bool) override;
   bool evaluates_again() const override;
-  bool works() const override { return !evaluates_again(); }
+  bool uses_work() const override { return !evaluates_again(); }
 
-  template <int D, class Space> Foam::Judgement candidate_in(Space &here, double h, bool first)
+  template <int D, class Space> Foam::Judgement candidate_in(Space &space, double h, bool first)
   {
-    System<D, Space> system(*this, here);
+    System<D, Space> system(*this, space);
     return Foam::attempt_abm(system, driver, h, first);
   }
 };

@@ -48,7 +48,7 @@ class FixFoamCoarsen : public Fix {
   // the law for the sums over contacts that the pair style gathered last; on all ranks, as
   // exchange through the liquid takes sums over all bubbles
 
-  template <int D, class Space> Foam::Exchange<D> exchange(Space &here, int nlocal) const
+  template <int D, class Space> Foam::Exchange<D> exchange(Space &space, int nlocal) const
   {
     Foam::Exchange<D> gas;
     gas.K = K;
@@ -56,25 +56,25 @@ class FixFoamCoarsen : public Fix {
     gas.law = law;
     gas.Rin = pair->hub.record.rin;
     gas.Ain = mean_surface();
-    if (through_films) gas.film = here.column(pair->film, 0);
-    gas.area = here.column(pair->area, 0);
+    if (through_films) gas.film = space.column(pair->film, 0);
+    gas.area = space.column(pair->area, 0);
     using AddFreeSurface = Foam::AddFreeSurface<D, typename Space::Bubbles>;
     if (gas.through_liquid())
       gas.use(pair->hub.free_surface_known
                   ? pair->hub.free_surface
-                  : here.template sums<Foam::FreeSurface>(
-                        nlocal, AddFreeSurface{here.bubbles(), law, gas.area}));
+                  : space.template sums<Foam::FreeSurface>(
+                        nlocal, AddFreeSurface{space.bubbles(), law, gas.area}));
     return gas;
   }
-  template <int D> void took(const Foam::Exchange<D> &gas)    // the integrator, for its rates
+  template <int D> void note(const Foam::Exchange<D> &gas)    // the integrator, for its rates
   {
-    rho_elsewhere = gas.sums.elsewhere;
+    rho_on_device = gas.sums.on_device;
     rho = gas.liquid.inverse_rho > 0.0 ? 1.0 / gas.liquid.inverse_rho : 0.0;
   }
   virtual double critical_radius() { return rho; }    // of those rates; 0 without liquid exchange
   void keep_critical_radius(double value)
   {
-    rho_elsewhere = nullptr;
+    rho_on_device = nullptr;
     rho = value;
   }
 
@@ -93,7 +93,7 @@ class FixFoamCoarsen : public Fix {
   double ain_given;    // <A_in> if the user gave it, else 0
   bigint nmin;
   double rho;
-  const Foam::FreeSurface *rho_elsewhere = nullptr;    // see Foam::Sums
+  const Foam::FreeSurface *rho_on_device = nullptr;    // see Foam::Sums
   bool dead;    // there are removed bubbles, on any rank, that are not yet taken out
 
   bool find_pair();

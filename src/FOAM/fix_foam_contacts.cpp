@@ -109,25 +109,25 @@ void FixFoamContacts::init_list(int, NeighList *its_own)
    from state to state
 ------------------------------------------------------------------------- */
 
-FoamTotals FixFoamContacts::try_out(double later)
+Foam::ContactTotals FixFoamContacts::try_out(double later)
 {
   while (true) {
     history.use(atom->nmax);
-    const FoamTotals found = follow(later);
-    const int most = static_cast<int>(found.max[Foam::MOST]);
+    const Foam::ContactTotals found = follow(later);
+    const int most = static_cast<int>(found.most);
     if (most <= history.slots()) return found;
     history.make_room(most);
     maxexchange = history.most();    // fix foam/coarsen may take out the dead before pre_exchange()
   }
 }
 
-FoamTotals FixFoamContacts::follow(double later)
+Foam::ContactTotals FixFoamContacts::follow(double later)
 {
   if (list_of_pair) list = pair->list;
   const int nlocal = atom->nlocal;
-  FoamHost here(lmp);
+  FoamHost space(lmp);
   const FoamHalfList<false> rows{list->ilist, list->numneigh, list->firstneigh, nlocal};
-  return follow_in(here, rows, list->inum, MAX(1, nlocal), later);
+  return follow_in(space, rows, list->inum, MAX(1, nlocal), later);
 }
 
 // only if the reach of a contact is half a side of the box or more
@@ -140,11 +140,11 @@ bool FixFoamContacts::images_may_touch() const
   return may;
 }
 
-void FixFoamContacts::take(const FoamTotals &found)
+void FixFoamContacts::take(const Foam::ContactTotals &found)
 {
   history.commit();
   last = found;
-  formed += found.sum[Foam::FORMED];
+  formed += found.formed;
   reduced = is_shown = false;
 }
 
@@ -176,7 +176,7 @@ void FixFoamContacts::setup(int)
   take(try_out(0.0));
   if (!started) {
     formed = 0.0;
-    at_first = of_all_ranks().sum[Foam::PRESENT];
+    at_first = of_all_ranks().present;
     started = true;
   }
   show();
@@ -237,21 +237,21 @@ void FixFoamContacts::show()
 
 void FixFoamContacts::show_there()
 {
-  FoamHost here(lmp);
-  show_in(here);
+  FoamHost space(lmp);
+  show_in(space);
 }
 
 void FixFoamContacts::look_at(int i)    // between two runs
 {
-  FoamHost here(lmp);
-  Foam::ShowAges{history.records(here, history.committed), {}}.look(i, array_atom[i]);
+  FoamHost space(lmp);
+  Foam::ShowAges{history.records(space, history.committed), {}}.fill(i, array_atom[i]);
 }
 
-const FoamTotals &FixFoamContacts::of_all_ranks()
+const Foam::ContactTotals &FixFoamContacts::of_all_ranks()
 {
   if (!reduced) {
-    FoamTotals mine = last;
-    mine.sum[Foam::FORMED] = formed;
+    Foam::ContactTotals mine = last;
+    mine.formed.value = formed;
     last_of_all = reduce(mine);
     reduced = true;
   }
@@ -261,19 +261,19 @@ const FoamTotals &FixFoamContacts::of_all_ranks()
 double FixFoamContacts::compute_vector(int n)
 {
   using namespace Foam;
-  const FoamTotals &all = of_all_ranks();
-  const double present = all.sum[PRESENT];
+  const Foam::ContactTotals &all = of_all_ranks();
+  const double present = all.present;
   switch (n) {
     case 0:
       return present;
     case 1:
-      return all.sum[FORMED];
+      return all.formed;
     case 2:
-      return at_first + all.sum[FORMED] - present;
+      return at_first + all.formed - present;
     case 3:
-      return present > 0.0 ? all.sum[AGES] / present : 0.0;
+      return present > 0.0 ? all.ages / present : 0.0;
     default:
-      return all.max[OLDEST];
+      return all.oldest;
   }
 }
 
@@ -339,7 +339,7 @@ int FixFoamContacts::maxsize_restart()
 
 void FixFoamContacts::write_restart(FILE *fp)
 {
-  const double values[] = {double(started), at_first, of_all_ranks().sum[Foam::FORMED]};
+  const double values[] = {double(started), at_first, of_all_ranks().formed};
   if (comm->me != 0) return;
   const int size = sizeof(values);
   fwrite(&size, sizeof(int), 1, fp);

@@ -60,7 +60,7 @@ class FixFoamContacts : public Fix, public FoamFollower {
 
  protected:
   PairFoam *pair = nullptr;
-  FoamReduce<FoamTotals> reduce;
+  FoamReduce<Foam::ContactTotals> reduce;
 
   FoamColumnList all_columns;
   FoamHistory history{all_columns, Foam::AGE_VALUES};
@@ -69,12 +69,12 @@ class FixFoamContacts : public Fix, public FoamFollower {
 
   // the contacts of this state, on trial: those committed are so much older
 
-  virtual FoamTotals follow(double later);
+  virtual Foam::ContactTotals follow(double later);
   template <class Space, class List>
-  FoamTotals follow_in(Space &here, const List &list, int nrows, int chunk, double later);
+  Foam::ContactTotals follow_in(Space &space, const List &list, int nrows, int chunk, double later);
   bool images_may_touch() const;
   virtual void show_there();
-  template <class Space> void show_in(Space &here);
+  template <class Space> void show_in(Space &space);
   virtual void host_reads() {}
 
  private:
@@ -85,47 +85,47 @@ class FixFoamContacts : public Fix, public FoamFollower {
   bool called_back = false;    // see FixFoamIntegrate
   bool is_shown = false;       // the present state
 
-  bool started = false;            // kept in restarts, with:
-  double at_first = 0.0;           // contacts when this fix began
-  double formed = 0.0;             // since then, by bubbles of this rank
-  FoamTotals last, last_of_all;    // of the state that is committed
-  bool reduced = false;            // the latter, with all that have formed in place of FORMED
+  bool started = false;                     // kept in restarts, with:
+  double at_first = 0.0;                    // contacts when this fix began
+  double formed = 0.0;                      // since then, by bubbles of this rank
+  Foam::ContactTotals last, last_of_all;    // of the state that is committed
+  bool reduced = false;    // the latter, with all that have formed in place of FORMED
 
-  FoamTotals try_out(double later);
-  void take(const FoamTotals &);
+  Foam::ContactTotals try_out(double later);
+  void take(const Foam::ContactTotals &);
   void show();
   void look_at(int);
   bool ids_have_changed();
-  const FoamTotals &of_all_ranks();
+  const Foam::ContactTotals &of_all_ranks();
 };
 
 template <class Space, class List>
-FoamTotals FixFoamContacts::follow_in(Space &here, const List &rows, int nrows, int chunk,
-                                      double later)
+Foam::ContactTotals FixFoamContacts::follow_in(Space &space, const List &rows, int nrows, int chunk,
+                                               double later)
 {
   const int nlocal = atom->nlocal, nchunks = (nlocal + chunk - 1) / chunk;
-  const Foam::FollowContacts<typename Space::Bubbles, List> body{
-      here.bubbles(),
+  const Foam::FollowContacts<typename Space::Bubbles, List> functor{
+      space.bubbles(),
       rows,
-      here.members(groupbit),
-      history.records(here, history.committed),
-      history.records(here, history.trial),
+      space.members(groupbit),
+      history.records(space, history.committed),
+      history.records(space, history.trial),
       later,
       nrows,
       nlocal,
       chunk,
       domain->dimension == 2,
       images_may_touch()};
-  return here.template totals<FoamTotals>(nchunks, body);
+  return space.template totals<Foam::ContactTotals>(nchunks, functor);
 }
 
-template <class Space> void FixFoamContacts::show_in(Space &here)
+template <class Space> void FixFoamContacts::show_in(Space &space)
 {
-  const Foam::ShowAges body{history.records(here, history.committed),
-                            {here.column(shown, Foam::SHOWN_COUNT),
-                             here.column(shown, Foam::SHOWN_OLDEST),
-                             here.column(shown, Foam::SHOWN_MEAN)}};
-  here.for_each(atom->nlocal, body);
+  const Foam::ShowAges functor{history.records(space, history.committed),
+                               {space.column(shown, Foam::SHOWN_COUNT),
+                                space.column(shown, Foam::SHOWN_OLDEST),
+                                space.column(shown, Foam::SHOWN_MEAN)}};
+  space.for_each(atom->nlocal, functor);
 }
 
 }    // namespace LAMMPS_NS

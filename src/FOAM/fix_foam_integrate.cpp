@@ -301,38 +301,38 @@ void FixFoamIntegrate::remove_small()
 
 void FixFoamIntegrate::keep_history()
 {
-  FoamHost here(lmp, groupbit);
-  keep_history_in(here);
+  FoamHost space(lmp, groupbit);
+  keep_history_in(space);
 }
 
 void FixFoamIntegrate::take_rates(bool history)
 {
-  FoamHost here(lmp, groupbit);
-  take_rates_in(here, history);
+  FoamHost space(lmp, groupbit);
+  take_rates_in(space, history);
 }
 
 void FixFoamIntegrate::redistribute(double factor)
 {
-  FoamHost here(lmp, groupbit);
-  redistribute_in(here, factor);
+  FoamHost space(lmp, groupbit);
+  redistribute_in(space, factor);
 }
 
 void FixFoamIntegrate::return_to_start()
 {
-  FoamHost here(lmp, groupbit);
-  return_to_start_in(here);
+  FoamHost space(lmp, groupbit);
+  return_to_start_in(space);
 }
 
 void FixFoamIntegrate::take_listed()
 {
-  FoamHost here(lmp, groupbit);
-  take_listed_in(here);
+  FoamHost space(lmp, groupbit);
+  take_listed_in(space);
 }
 
 double FixFoamIntegrate::largest_radius()
 {
-  FoamHost here(lmp, groupbit);
-  return largest_radius_in(here);
+  FoamHost space(lmp, groupbit);
+  return largest_radius_in(space);
 }
 
 /* ----------------------------------------------------------------------
@@ -390,7 +390,7 @@ void FixFoamIntegrate::post_neighbor()
   start.use(atom->nmax);
   listed.use(atom->nmax);
   if (lag.active) lag.v_start.use(atom->nmax);
-  if (works()) work.use(atom->nmax);
+  if (uses_work()) work.use(atom->nmax);
   take_listed();
   list.built();
 

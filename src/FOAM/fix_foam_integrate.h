@@ -139,7 +139,7 @@ class FixFoamIntegrate : public Fix {
   virtual Foam::Judgement candidate(double step, bool first) = 0;    // of this rank
   virtual bool evaluates_again() const { return true; }        // or has the next rates in work
   virtual bool has_history() const { return true; }            // needs f_{n-1}
-  virtual bool works() const { return false; }                 // uses work
+  virtual bool uses_work() const { return false; }             // uses work
   virtual double stable_step() const { return INFINITY; }      // no step may be longer
   virtual bool suffers_from_drift() const { return false; }    // so it is removed unless kept
 
@@ -161,12 +161,12 @@ class FixFoamIntegrate : public Fix {
 
   // ---- the equations and where their numbers are
 
-  template <class Space> Foam::State<typename Space::Bubbles> state(Space &here);
-  template <int D, class Space> Foam::Fields<D, typename Space::Bubbles> fields(Space &here)
+  template <class Space> Foam::State<typename Space::Bubbles> state(Space &space);
+  template <int D, class Space> Foam::Fields<D, typename Space::Bubbles> fields(Space &space)
   {
-    return {state(here)};
+    return {state(space)};
   }
-  template <int D, class Space> Foam::Rates<D, typename Space::Bubbles> rates(Space &here);
+  template <int D, class Space> Foam::Rates<D, typename Space::Bubbles> rates(Space &space);
 
   // ---- the loops over bubbles
 
@@ -234,20 +234,20 @@ class FixFoamIntegrate : public Fix {
 
 // ---------------------------------------------------------------------- loops, for any space
 
-template <class Space> Foam::State<typename Space::Bubbles> FixFoamIntegrate::state(Space &here)
+template <class Space> Foam::State<typename Space::Bubbles> FixFoamIntegrate::state(Space &space)
 {
-  Foam::State<typename Space::Bubbles> s{here.bubbles()};
-  s.q = here.column(columns, Q);
-  s.qdot = here.column(columns, QDOT);
+  Foam::State<typename Space::Bubbles> s{space.bubbles()};
+  s.q = space.column(columns, Q);
+  s.qdot = space.column(columns, QDOT);
   for (int n = 0; n < s.MOST; n++) {
-    s.start[n] = here.column(start, XSTART + n);
-    s.before[n] = here.column(columns, VX_BEFORE + n);
-    s.next[n] = evaluates_again() ? nullptr : here.column(work, n);
+    s.start[n] = space.column(start, XSTART + n);
+    s.before[n] = space.column(columns, VX_BEFORE + n);
+    s.next[n] = evaluates_again() ? nullptr : space.column(work, n);
   }
-  s.radius_start = here.column(start, RSTART);
-  for (int k = 0; k < 3; k++) s.x_listed[k] = here.column(listed, XLISTED + k);
-  s.radius_listed = here.column(listed, RLISTED);
-  s.lag = lag.view(here);
+  s.radius_start = space.column(start, RSTART);
+  for (int k = 0; k < 3; k++) s.x_listed[k] = space.column(listed, XLISTED + k);
+  s.radius_listed = space.column(listed, RLISTED);
+  s.lag = lag.view(space);
   s.counts = gas != nullptr;
   s.grows = grows();
   s.variable = variable;
@@ -260,23 +260,23 @@ template <class Space> Foam::State<typename Space::Bubbles> FixFoamIntegrate::st
 // as a whole may drift; the remedy goes on in the frame in which it is at rest.
 
 template <int D, class Space>
-Foam::Rates<D, typename Space::Bubbles> FixFoamIntegrate::rates(Space &here)
+Foam::Rates<D, typename Space::Bubbles> FixFoamIntegrate::rates(Space &space)
 {
   using B = typename Space::Bubbles;
-  const Foam::ContactSums sums = pair->contact_sums(here);
-  Foam::Drag<D, B> drag{here.bubbles(), pair->mu0};
+  const Foam::ContactSums sums = pair->contact_sums(space);
+  Foam::Drag<D, B> drag{space.bubbles(), pair->mu0};
   if (pair->neighbor_drag)
     drag.ambient = {sums.contacts, {sums.vsum[0], sums.vsum[1], sums.vsum[2]}};
   if (drift_removed) {
-    drag.drift = here.template sums<Foam::DriftTotals>(atom->nlocal, Foam::AddDrift<D, B>{drag});
+    drag.drift = space.template sums<Foam::DriftTotals>(atom->nlocal, Foam::AddDrift<D, B>{drag});
     drag.drift_removed = true;
   }
-  Foam::Rates<D, B> f{here.bubbles(), drag};
+  Foam::Rates<D, B> f{space.bubbles(), drag};
   f.variable = variable;
   f.grows = grows();
   if (gas) {
-    f.gas = gas->exchange<D>(here, atom->nlocal);
-    gas->took(f.gas);
+    f.gas = gas->exchange<D>(space, atom->nlocal);
+    gas->note(f.gas);
   }
   return f;
 }
@@ -285,7 +285,7 @@ Foam::Rates<D, typename Space::Bubbles> FixFoamIntegrate::rates(Space &here)
 
 template <int D, class Space> class FixFoamIntegrate::System {
   FixFoamIntegrate &fix;
-  Space &here;
+  Space &space;
   const int n;
 
  public:
@@ -293,23 +293,23 @@ template <int D, class Space> class FixFoamIntegrate::System {
   using Fields = Foam::Fields<D, B>;
   using Totals = Foam::Judgement;
 
-  System(FixFoamIntegrate &fix, Space &here) : fix(fix), here(here), n(fix.atom->nlocal) {}
+  System(FixFoamIntegrate &fix, Space &space) : fix(fix), space(space), n(fix.atom->nlocal) {}
 
-  Fields fields() { return fix.fields<D>(here); }
-  Foam::Rates<D, B> rates() { return fix.rates<D>(here); }
+  Fields fields() { return fix.fields<D>(space); }
+  Foam::Rates<D, B> rates() { return fix.rates<D>(space); }
   Foam::Judge<D, B> judge() { return {fields(), fix.gas ? fix.gas->smallest_radius() : 0.0}; }
   Foam::Work<Fields> work()
   {
     Foam::Work<Fields> w;
-    for (int m = 0; m < Fields::MOST; m++) w.field[m] = here.column(fix.work, m);
-    w.bubble = here.column(fix.work, Fields::MOST);
+    for (int m = 0; m < Fields::MOST; m++) w.field[m] = space.column(fix.work, m);
+    w.bubble = space.column(fix.work, Fields::MOST);
     return w;
   }
   void evaluate(double later) { fix.evaluate(later); }
-  template <class Functor> void for_each(const Functor &functor) { here.for_each(n, functor); }
+  template <class Functor> void for_each(const Functor &functor) { space.for_each(n, functor); }
   template <class T, class Functor> T totals(const Functor &functor)
   {
-    return here.template totals<T>(n, functor);
+    return space.template totals<T>(n, functor);
   }
   template <class T> T reduce(const T &mine) { return foam_reduce(mine, fix.world); }
   double length() const { return fix.pair->hub.record.rin; }
@@ -318,52 +318,53 @@ template <int D, class Space> class FixFoamIntegrate::System {
   bool lags() const { return fix.lag.active; }
 };
 
-template <class Space> void FixFoamIntegrate::keep_history_in(Space &here)
-{
-  using B = typename Space::Bubbles;
-  Foam::with_dimension(
-      dim, [&]<int D>() { here.for_each(atom->nlocal, Foam::KeepHistory<D, B>{fields<D>(here)}); });
-}
-
-template <class Space> void FixFoamIntegrate::take_rates_in(Space &here, bool history)
+template <class Space> void FixFoamIntegrate::keep_history_in(Space &space)
 {
   using B = typename Space::Bubbles;
   Foam::with_dimension(dim, [&]<int D>() {
-    here.for_each(atom->nlocal, Foam::TakeRates<D, B>{fields<D>(here), rates<D>(here), history});
+    space.for_each(atom->nlocal, Foam::KeepHistory<D, B>{fields<D>(space)});
   });
 }
 
-template <class Space> void FixFoamIntegrate::redistribute_in(Space &here, double factor)
+template <class Space> void FixFoamIntegrate::take_rates_in(Space &space, bool history)
+{
+  using B = typename Space::Bubbles;
+  Foam::with_dimension(dim, [&]<int D>() {
+    space.for_each(atom->nlocal, Foam::TakeRates<D, B>{fields<D>(space), rates<D>(space), history});
+  });
+}
+
+template <class Space> void FixFoamIntegrate::redistribute_in(Space &space, double factor)
 {
   using B = typename Space::Bubbles;
   const double smallest = gas->smallest_radius();
   Foam::with_dimension(dim, [&]<int D>() {
-    here.for_each(atom->nlocal, Foam::Redistribute<D, B>{state(here), smallest, factor});
+    space.for_each(atom->nlocal, Foam::Redistribute<D, B>{state(space), smallest, factor});
   });
 }
 
-template <class Space> void FixFoamIntegrate::return_to_start_in(Space &here)
+template <class Space> void FixFoamIntegrate::return_to_start_in(Space &space)
 {
   using B = typename Space::Bubbles;
   Foam::with_dimension(dim, [&]<int D>() {
-    here.for_each(atom->nlocal, Foam::ReturnToStart<D, B>{fields<D>(here)});
+    space.for_each(atom->nlocal, Foam::ReturnToStart<D, B>{fields<D>(space)});
   });
 }
 
-template <class Space> void FixFoamIntegrate::take_listed_in(Space &here)
+template <class Space> void FixFoamIntegrate::take_listed_in(Space &space)
 {
-  here.for_each(atom->nlocal, Foam::TakeListed<typename Space::Bubbles>{state(here)});
+  space.for_each(atom->nlocal, Foam::TakeListed<typename Space::Bubbles>{state(space)});
 }
 
-template <class Space> double FixFoamIntegrate::largest_radius_in(Space &here)
+template <class Space> double FixFoamIntegrate::largest_radius_in(Space &space)
 {
-  const Foam::LargestRadius<typename Space::Bubbles> functor{here.bubbles()};
-  return here.template totals<FoamMax>(atom->nlocal, functor);
+  const Foam::LargestRadius<typename Space::Bubbles> functor{space.bubbles()};
+  return space.template totals<FoamMax>(atom->nlocal, functor);
 }
 
-template <class Space> double FixFoamIntegrate::count_bubbles_in(Space &here)
+template <class Space> double FixFoamIntegrate::count_bubbles_in(Space &space)
 {
-  return here.template totals<FoamSum>(atom->nlocal, Foam::CountBubbles());
+  return space.template totals<FoamSum>(atom->nlocal, Foam::CountBubbles());
 }
 
 }    // namespace LAMMPS_NS

@@ -42,15 +42,16 @@ void FixFoamIntegrate::check_companions()
 
   // styles of a device hold their numbers there
 
-  auto elsewhere = [&](const char *what, const char *its_style, int its_kokkosable, int its_space) {
+  auto same_place = [&](const char *what, const char *its_style, int its_kokkosable,
+                        int its_space) {
     if (its_kokkosable != kokkosable || (kokkosable && its_space != execution_space))
       error->all(FLERR,
                  "Fix {} and {} {} must run in the same place: use the suffix kk for all styles "
                  "of the foam or for none",
                  style, what, its_style);
   };
-  elsewhere("pair style", "durian/foam", pair->kokkosable, pair->execution_space);
-  if (gas) elsewhere("fix", gas->style, gas->kokkosable, gas->execution_space);
+  same_place("pair style", "durian/foam", pair->kokkosable, pair->execution_space);
+  if (gas) same_place("fix", gas->style, gas->kokkosable, gas->execution_space);
 
   if (gas && gas->igroup != igroup)
     error->all(
@@ -126,14 +127,14 @@ std::string FixFoamIntegrate::worst_bubble()
 
   struct {
     double place[3], radius, force[3];    // the first two at the start of the step
-  } here{}, its;
+  } own{}, its;
   for (int i = 0; i < atom->nlocal; i++)
     if (double(atom->tag[i]) == tag) {
-      for (int k = 0; k < dim; k++) here.place[k] = start[XSTART + k][i];
-      for (int k = 0; k < 3; k++) here.force[k] = atom->f[i][k];
-      here.radius = gas ? start[RSTART][i] : atom->radius[i];
+      for (int k = 0; k < dim; k++) own.place[k] = start[XSTART + k][i];
+      for (int k = 0; k < 3; k++) own.force[k] = atom->f[i][k];
+      own.radius = gas ? start[RSTART][i] : atom->radius[i];
     }
-  MPI_Allreduce(&here, &its, sizeof(its) / sizeof(double), MPI_DOUBLE, MPI_SUM, world);
+  MPI_Allreduce(&own, &its, sizeof(its) / sizeof(double), MPI_DOUBLE, MPI_SUM, world);
   std::string message =
       fmt::format("bubble {:.0f}, of radius {:.8} and at {:.8} {:.8} {:.8} when the step began",
                   tag, its.radius, its.place[0], its.place[1], its.place[2]);

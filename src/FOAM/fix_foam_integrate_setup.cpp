@@ -253,8 +253,8 @@ void FixFoamIntegrate::setup(int)
 template <int D> FixFoamIntegrate::ChangeOfRates FixFoamIntegrate::change_of_rates()
 {
   host_reads();
-  FoamHost here(lmp, groupbit);
-  const auto f = rates<D>(here);
+  FoamHost space(lmp, groupbit);
+  const auto f = rates<D>(space);
   const bool last = lag.active && lag.known != 0.0;
   ChangeOfRates mine;
   for (int i = 0; i < atom->nlocal; i++) {
@@ -295,8 +295,8 @@ void FixFoamIntegrate::check_ghosts()
 
 double FixFoamIntegrate::count_bubbles()
 {
-  FoamHost here(lmp, groupbit);
-  return count_bubbles_in(here);
+  FoamHost space(lmp, groupbit);
+  return count_bubbles_in(space);
 }
 
 // on all ranks, while none is dead

@@ -30,8 +30,8 @@ FixFoamRKC::FixFoamRKC(LAMMPS *lmp, int narg, char **arg) : FixFoamIntegrate(lmp
 
 Foam::Judgement FixFoamRKC::candidate(double step, bool first)
 {
-  FoamHost here(lmp, groupbit);
-  return Foam::with_dimension(dim, [&]<int D>() { return candidate_in<D>(here, step, first); });
+  FoamHost space(lmp, groupbit);
+  return Foam::with_dimension(dim, [&]<int D>() { return candidate_in<D>(space, step, first); });
 }
 
 std::vector<double *> FixFoamRKC::progress()

@@ -34,14 +34,14 @@ class FixFoamRKC : public FixFoamIntegrate {
 
   Foam::Judgement candidate(double, bool) override;
   bool has_history() const override { return false; }
-  bool works() const override { return true; }
+  bool uses_work() const override { return true; }
   double stable_step() const override { return scheme.stable_step(); }
   bool suffers_from_drift() const override { return true; }    // which grows from stage to stage
   std::vector<double *> progress() override;
 
-  template <int D, class Space> Foam::Judgement candidate_in(Space &here, double h, bool first)
+  template <int D, class Space> Foam::Judgement candidate_in(Space &space, double h, bool first)
   {
-    System<D, Space> system(*this, here);
+    System<D, Space> system(*this, space);
     return scheme.attempt(system, driver, h, first);
   }
 };

@@ -15,29 +15,23 @@
 
 // How long contacts have lasted: functors of fix foam/contacts
 
-namespace LAMMPS_NS {
-
-struct FoamTotals {
-  static constexpr int SUMS = 7, MAXIMA = 4;
-  double sum[SUMS] = {};
-  double max[MAXIMA] = {};
-
-  FOAM_FUNCTION void join(const FoamTotals &other)
-  {
-    for (int m = 0; m < SUMS; m++) sum[m] += other.sum[m];
-    for (int m = 0; m < MAXIMA; m++)
-      if (other.max[m] > max[m]) max[m] = other.max[m];
-  }
-};
-
-}    // namespace LAMMPS_NS
-
 namespace Foam {
 
 enum { AGE, AGE_VALUES };                                 // of a contact
-enum { FORMED, PRESENT, AGES };                           // sums: contacts new and all, their ages
-enum { MOST, OLDEST };                                    // maxima: contacts of a bubble, ages
 enum { SHOWN_COUNT, SHOWN_OLDEST, SHOWN_MEAN, SHOWN };    // of a bubble
+
+struct ContactTotals {
+  FoamSum formed, present, ages;    // contacts that are new, all of them, their ages
+  FoamMax most, oldest;             // contacts of a bubble; age
+  FOAM_FUNCTION void join(const ContactTotals &other)
+  {
+    formed.join(other.formed);
+    present.join(other.present);
+    ages.join(other.ages);
+    most.join(other.most);
+    oldest.join(other.oldest);
+  }
+};
 
 // Those of a state, so much later than the contacts before: who touched then is older, others are new.
 // Rows of pairs are in chunks, see FoamRows; bubbles of a chunk are the work of one thread.  Contacts are those
@@ -53,7 +47,7 @@ template <class B, class List> struct FollowContacts {
   int nrows, nlocal, chunk;
   bool flat, images;    // may two bubbles touch through more than one image
 
-  FOAM_FUNCTION void operator()(int c, LAMMPS_NS::FoamTotals &all) const
+  FOAM_FUNCTION void operator()(int c, ContactTotals &all) const
   {
     const int begin = c * chunk, end = begin + chunk < nlocal ? begin + chunk : nlocal;
     for (int i = begin; i < end; i++) {
@@ -68,8 +62,7 @@ template <class B, class List> struct FollowContacts {
         if (touch(i, j) && member(j)) meet(i, j, both, all);
       });
     }
-    for (int i = begin; i < end; i++)
-      if (now.count(i) > all.max[MOST]) all.max[MOST] = now.count(i);
+    for (int i = begin; i < end; i++) all.most.raise(now.count(i));
   }
 
   FOAM_FUNCTION bool touch(int i, int j) const
@@ -82,7 +75,7 @@ template <class B, class List> struct FollowContacts {
 
   // partners keep the same age, so one of them tells
 
-  FOAM_FUNCTION void meet(int i, int j, bool both, LAMMPS_NS::FoamTotals &all) const
+  FOAM_FUNCTION void meet(int i, int j, bool both, ContactTotals &all) const
   {
     const LAMMPS_NS::tagint id_i = b.tag(i), id_j = b.tag(j);
     if (id_i == id_j) return;                               // a bubble and its own image
@@ -98,15 +91,15 @@ template <class B, class List> struct FollowContacts {
   // sums take a contact once, from the partner with the lower ID
 
   FOAM_FUNCTION void keep(int i, LAMMPS_NS::tagint own, LAMMPS_NS::tagint other, bool is_new,
-                          double age, LAMMPS_NS::FoamTotals &all) const
+                          double age, ContactTotals &all) const
   {
     const int m = now.add(i, other);
     if (m >= 0) now.value(i, m, AGE) = age;
     if (other < own) return;
-    if (is_new) all.sum[FORMED] += 1.0;
-    all.sum[PRESENT] += 1.0;
-    all.sum[AGES] += age;
-    if (age > all.max[OLDEST]) all.max[OLDEST] = age;
+    if (is_new) all.formed += 1.0;
+    all.present += 1.0;
+    all.ages += age;
+    all.oldest.raise(age);
   }
 };
 
@@ -118,10 +111,10 @@ struct ShowAges {
   FOAM_FUNCTION void operator()(int i) const
   {
     double values[SHOWN];
-    look(i, values);
+    fill(i, values);
     for (int k = 0; k < SHOWN; k++) shown[k][i] = values[k];
   }
-  FOAM_FUNCTION void look(int i, double *values) const
+  FOAM_FUNCTION void fill(int i, double *values) const
   {
     const int n = static_cast<int>(records.count(i));
     double oldest = 0.0, sum = 0.0;

@@ -66,7 +66,7 @@ enum Gather : unsigned {
   ENERGY = 32,     // each bubble's share of the energies
   ANY = 64,        // what a loop is told when it runs
   DRAG = CONTACTS | VSUM,
-  TO_LOOK_AT = CONTACTS | FILM | AREA | ENERGY
+  DIAGNOSTICS = CONTACTS | FILM | AREA | ENERGY
 };
 
 // Sums over the contacts of each bubble, as columns.  Contacts are those with other bubbles: a particle
@@ -94,8 +94,8 @@ struct ContactSums {
 
 template <class Totals> struct Sums {
   Totals known{};
-  const Totals *elsewhere = nullptr;
-  FOAM_FUNCTION const Totals &operator()() const { return elsewhere ? *elsewhere : known; }
+  const Totals *on_device = nullptr;
+  FOAM_FUNCTION const Totals &operator()() const { return on_device ? *on_device : known; }
 };
 
 }    // namespace Foam

@@ -42,8 +42,8 @@ template <class Run> void with_gathered(unsigned what, bool tallied, Run &&run)
       return either.template operator()<FORCE | FILM>();
     case FORCE | FILM | AREA:
       return either.template operator()<FORCE | FILM | AREA>();
-    case TO_LOOK_AT & ~DRAG:
-      return run.template operator()<TO_LOOK_AT>();
+    case DIAGNOSTICS & ~DRAG:
+      return run.template operator()<DIAGNOSTICS>();
     default:
       throw std::logic_error("Foam package: no loop gathers " + std::to_string(what));
   }
@@ -89,7 +89,7 @@ struct ContactLoop {
   FOAM_ALWAYS_INLINE void operator()(int n, Tally &tally) const
   {
     // numbers are written through pointers that might, for all the compiler knows, point to members
-    // of this body: what the inner loop reads is taken out of it
+    // of this functor: what the inner loop reads is taken out of it
 
     const unsigned wanted = asked();
     auto gathers = [wanted](unsigned flags) {

@@ -24,8 +24,8 @@ struct Quantities {
   Quantity name[MOST];
 };
 
-template <int D, class B, class Masks> struct LookAt {
-  static constexpr const char *NAME = "foam: look at bubbles";
+template <int D, class B, class Masks> struct FillDiagnostics {
+  static constexpr const char *NAME = "foam: diagnostics";
   B b;
   Masks mask;
   int groupbits;    // of the compute, and of the bubbles

@@ -70,14 +70,14 @@ template <int D> struct Exchange {
   void use(const Sums<FreeSurface> &all)
   {
     sums = all;
-    if (!all.elsewhere) liquid = of(all.known);
+    if (!all.on_device) liquid = of(all.known);
   }
 
   FOAM_FUNCTION Split operator()(int i, double R) const
   {
     if (!(R > 0.0) || !(K > 0.0)) return {0.0, 0.0};
     Split split{film ? K * film[i] : 0.0, 0.0};
-    const Liquid l = sums.elsewhere ? of(sums()) : liquid;
+    const Liquid l = sums.on_device ? of(sums()) : liquid;
     if (l.coefficient > 0.0)
       split.liquid = liquid_exchange(l.coefficient, weight(i, R), l.inverse_rho, R);
     return split;

@@ -102,9 +102,9 @@ class FoamHistory {
     trial.use(nmax);
   }
   void commit() { committed.swap(trial); }
-  template <class Space> Records records(Space &here, FoamColumns &columns) const
+  template <class Space> Records records(Space &space, FoamColumns &columns) const
   {
-    return {here.column(columns, 0), static_cast<size_t>(columns.rows()), room, values};
+    return {space.column(columns, 0), static_cast<size_t>(columns.rows()), room, values};
   }
 
   int slots() const { return room; }

@@ -45,22 +45,25 @@ class FoamHost : protected Pointers {
     return columns.in_use() ? columns[c] : nullptr;
   }
 
-  template <class Body> void for_all(int n, const Body &body) const
+  template <class Functor> void for_all(int n, const Functor &functor) const
   {
-    for (int i = 0; i < n; i++) body(i);
+    for (int i = 0; i < n; i++) functor(i);
   }
-  template <class Body> void for_each(int n, const Body &body) const { over_bubbles(n, body); }
-  template <class Totals, class Body>
-  Totals totals(int n, const Body &body) const    // of this rank
+  template <class Functor> void for_each(int n, const Functor &functor) const
+  {
+    over_bubbles(n, functor);
+  }
+  template <class Totals, class Functor>
+  Totals totals(int n, const Functor &functor) const    // of this rank
   {
     Totals mine;
-    over_bubbles(n, [&](int i) { body(i, mine); });
+    over_bubbles(n, [&](int i) { functor(i, mine); });
     return mine;
   }
-  template <class Totals, class Body>
-  Foam::Sums<Totals> sums(int n, const Body &body) const    // of all ranks
+  template <class Totals, class Functor>
+  Foam::Sums<Totals> sums(int n, const Functor &functor) const    // of all ranks
   {
-    return {foam_reduce(totals<Totals>(n, body), world)};
+    return {foam_reduce(totals<Totals>(n, functor), world)};
   }
 
   int groupbit;    // of the bubbles

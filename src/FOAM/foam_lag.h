@@ -37,11 +37,12 @@ class FoamLag : protected Pointers {
   FoamColumns columns;
   FoamColumns v_start;    // v_n, while LAMMPS' v is l
 
-  template <class Space> Foam::VelocityLag view(Space &here)
+  template <class Space> Foam::VelocityLag view(Space &space)
   {
     if (!active) return {};
-    return {{here.column(v_start, 0), here.column(v_start, 1), here.column(v_start, 2)},
-            {here.column(columns, LAGX), here.column(columns, LAGY), here.column(columns, LAGZ)}};
+    return {
+        {space.column(v_start, 0), space.column(v_start, 1), space.column(v_start, 2)},
+        {space.column(columns, LAGX), space.column(columns, LAGY), space.column(columns, LAGZ)}};
   }
 
   // on the host

@@ -103,16 +103,16 @@ template <class Fields, class Rates> struct TakeDirection {
   static constexpr const char *NAME = "foam: take direction";
   Fields y;
   Rates rates;
-  Work<Fields> there;    // rates at the start to compare with
-  bool elsewhere;        // they are in there; else f_n
-  double amount;         // length of the displacement
+  Work<Fields> reference;    // rates at the start to compare with
+  bool referred;             // to these; else to f_n
+  double amount;             // length of the displacement
   FOAM_FUNCTION void operator()(int i, DirectionTotals &all) const
   {
     double f[Fields::MOST];
     rates(i, f);
     y.each([&](const auto &field) {
       const int n = field.number;
-      const double at_start = elsewhere ? there.field[n][i] : field.rate(i);
+      const double at_start = referred ? reference.field[n][i] : field.rate(i);
       field.before(i) = (f[n] - at_start) / amount;
       all.add(field.before(i) / field.unit());
     });
@@ -126,14 +126,14 @@ template <class Fields, class Rates> struct KeepRates {
   static constexpr const char *NAME = "foam: keep rates";
   Fields y;
   Rates rates;
-  Work<Fields> there;
+  Work<Fields> reference;
   FOAM_FUNCTION void operator()(int i, FoamMax &change) const
   {
     double f[Fields::MOST];
     rates(i, f);
     y.each([&](const auto &field) {
       const int n = field.number;
-      there.field[n][i] = f[n];
+      reference.field[n][i] = f[n];
       change.raise(std::fabs((f[n] - field.rate(i)) / field.unit()));
     });
   }
@@ -244,14 +244,14 @@ void SpectralRadius::estimate(System &system, const Driver &driver, bool compare
 
   // f may depend on more than y, which then is not what it was when F_0 was evaluated
 
-  Work<Fields> there{};
-  const bool elsewhere = system.lags() || system.others_act();
-  if (elsewhere) {
-    there = system.work();
+  Work<Fields> reference{};
+  const bool referred = system.lags() || system.others_act();
+  if (referred) {
+    reference = system.work();
     system.for_each(Displace{system.fields(), 0.0});
     system.evaluate(0.0);
     const auto change =
-        system.template totals<FoamMax>(KeepRates{system.fields(), system.rates(), there});
+        system.template totals<FoamMax>(KeepRates{system.fields(), system.rates(), reference});
     if (compare && system.others_act()) notice(system, driver, change);
   }
 
@@ -265,7 +265,8 @@ void SpectralRadius::estimate(System &system, const Driver &driver, bool compare
     const double most = direction_most / direction_size;
     system.for_each(Displace{system.fields(), amount});
     system.evaluate(0.0);
-    take(TakeDirection{system.fields(), system.rates(), there, elsewhere, amount * direction_size});
+    take(TakeDirection{system.fields(), system.rates(), reference, referred,
+                       amount * direction_size});
     estimated = std::max(direction_size, direction_most / most);
     if (known && !(estimated > 0.0))
       take(AnyDirection{system.fields()});    // the bubbles that the last one moved are gone

@@ -61,7 +61,7 @@ void PairFoam::gather()
 {
   ev_unset();
   if (domain->box_change) comm->forward_comm();    // at output the box may have moved once more
-  gather(Foam::TO_LOOK_AT);
+  gather(Foam::DIAGNOSTICS);
 }
 
 void PairFoam::gather(unsigned what)

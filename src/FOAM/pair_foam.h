@@ -34,7 +34,7 @@ class PairFoam : public Pair {
 
   FoamHub hub;
 
-  void gather();     // Foam::TO_LOOK_AT of this state, for computes
+  void gather();     // Foam::DIAGNOSTICS of this state, for computes
   void refresh();    // cutoffs, ghosts and bins for bubbles that have grown
   bool outgrown(double R) const { return R > cutoff_radius; }    // have bubbles of this radius?
   virtual double stiffest() const = 0;                           // largest spring constant
@@ -61,15 +61,15 @@ class PairFoam : public Pair {
   FoamColumns film{all_columns, "film exchange", 1, Foam::FILM};
   FoamColumns energies{all_columns, "energies", NENERGIES, Foam::ENERGY};
 
-  template <class Space> Foam::ContactSums contact_sums(Space &here)
+  template <class Space> Foam::ContactSums contact_sums(Space &space)
   {
-    return {here.column(contacts, 0),
-            {here.column(vsum, 0), here.column(vsum, 1), here.column(vsum, 2)},
-            here.column(area, 0),
-            here.column(film, 0),
-            here.column(energies, ESPRING),
-            here.column(energies, EDURIAN),
-            here.members(hub.groupbit)};
+    return {space.column(contacts, 0),
+            {space.column(vsum, 0), space.column(vsum, 1), space.column(vsum, 2)},
+            space.column(area, 0),
+            space.column(film, 0),
+            space.column(energies, ESPRING),
+            space.column(energies, EDURIAN),
+            space.members(hub.groupbit)};
   }
 
  protected:

@@ -16,7 +16,7 @@ using namespace LAMMPS_NS;
 
 template <class DeviceType>
 ComputeFoamBubbleKokkos<DeviceType>::ComputeFoamBubbleKokkos(LAMMPS *lmp, int narg, char **arg)
-    : ComputeFoamBubble(lmp, narg, arg), here(lmp, EMPTY_MASK)
+    : ComputeFoamBubble(lmp, narg, arg), space(lmp, EMPTY_MASK)
 {
   kokkosable = 1;
   execution_space = FoamKokkos<DeviceType>::SPACE;
@@ -52,7 +52,7 @@ template <class DeviceType> void ComputeFoamBubbleKokkos<DeviceType>::compute_pe
   gather();
   const auto mask = atomKK->k_mask.view<DeviceType>();
   atomKK->sync(execution_space, MASK_MASK);
-  look(here, mask, one ? k_vector.view<DeviceType>().data() : k_array.view<DeviceType>().data());
+  fill(space, mask, one ? k_vector.view<DeviceType>().data() : k_array.view<DeviceType>().data());
   if (one) {
     k_vector.modify<DeviceType>();
     k_vector.sync_host();

@@ -30,7 +30,7 @@ template <class DeviceType> class ComputeFoamBubbleKokkos : public ComputeFoamBu
   void compute_peratom() override;
 
  private:
-  FoamKokkos<DeviceType> here;
+  FoamKokkos<DeviceType> space;
   DAT::tdual_double_1d k_vector;
   DAT::tdual_double_2d_lr k_array;
 };

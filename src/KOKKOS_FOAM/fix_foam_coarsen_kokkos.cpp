@@ -19,7 +19,7 @@ using namespace LAMMPS_NS;
 
 template <class DeviceType>
 FixFoamCoarsenKokkos<DeviceType>::FixFoamCoarsenKokkos(LAMMPS *lmp, int narg, char **arg)
-    : FixFoamCoarsen(lmp, narg, arg), here(lmp, EMPTY_MASK)
+    : FixFoamCoarsen(lmp, narg, arg), space(lmp, EMPTY_MASK)
 {
   kokkosable = 1;
   execution_space = FoamKokkos<DeviceType>::SPACE;
@@ -28,8 +28,8 @@ FixFoamCoarsenKokkos<DeviceType>::FixFoamCoarsenKokkos(LAMMPS *lmp, int narg, ch
 
 template <class DeviceType> double FixFoamCoarsenKokkos<DeviceType>::critical_radius()
 {
-  if (rho_elsewhere) {
-    const double inverse = here.fetch(rho_elsewhere).inverse_rho();
+  if (rho_on_device) {
+    const double inverse = space.fetch(rho_on_device).inverse_rho();
     keep_critical_radius(inverse > 0.0 ? 1.0 / inverse : 0.0);
   }
   return FixFoamCoarsen::critical_radius();
@@ -110,7 +110,7 @@ template <class DeviceType> void FixFoamCoarsenKokkos<DeviceType>::compact()
     k_dead = DAT::tdual_int_1d("foam/coarsen:dead", atom->nmax);
     k_fill = DAT::tdual_int_1d("foam/coarsen:fill", atom->nmax);
   }
-  const Listing<DeviceType> all{here.bubbles().radius, here.members(groupbit)};
+  const Listing<DeviceType> all{space.bubbles().radius, space.members(groupbit)};
   const auto dead = k_dead.view<DeviceType>();
   const auto fill = k_fill.view<DeviceType>();
   using Range = Kokkos::RangePolicy<DeviceType>;

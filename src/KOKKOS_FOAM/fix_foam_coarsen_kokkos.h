@@ -33,7 +33,7 @@ template <class DeviceType> class FixFoamCoarsenKokkos : public FixFoamCoarsen {
   void take_out_dead() override;
 
  private:
-  FoamKokkos<DeviceType> here;
+  FoamKokkos<DeviceType> space;
   DAT::tdual_double_2d_lr k_buf;    // where packed bubbles go, to be forgotten
   DAT::tdual_int_1d k_dead, k_fill;
 

@@ -13,16 +13,17 @@
 
 using namespace LAMMPS_NS;
 
-template <class DeviceType> FoamTotals FixFoamContactsKokkos<DeviceType>::follow(double later)
+template <class DeviceType>
+Foam::ContactTotals FixFoamContactsKokkos<DeviceType>::follow(double later)
 {
   const auto &rows = *static_cast<PairDurianFoamKokkos<DeviceType> *>(this->pair);    // see init()
-  return this->follow_in(this->here, rows.contact_rows(), this->atom->nlocal, rows.rows_at_once(),
+  return this->follow_in(this->space, rows.contact_rows(), this->atom->nlocal, rows.rows_at_once(),
                          later);
 }
 
 template <class DeviceType> void FixFoamContactsKokkos<DeviceType>::show_there()
 {
-  this->show_in(this->here);
+  this->show_in(this->space);
 }
 
 template <class DeviceType> void FixFoamContactsKokkos<DeviceType>::host_reads()

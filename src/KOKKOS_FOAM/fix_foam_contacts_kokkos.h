@@ -32,7 +32,7 @@ class FixFoamContactsKokkos : public FoamTravellingKokkos<FixFoamContacts, Devic
   }
 
  protected:
-  FoamTotals follow(double) override;
+  Foam::ContactTotals follow(double) override;
   void show_there() override;
   void host_reads() override;
 };

@@ -36,32 +36,32 @@ class FixFoamIntegrateKokkos : public FoamTravellingKokkos<Style, DeviceType> {
   FixFoamIntegrateKokkos(LAMMPS *lmp, int narg, char **arg)
       : FoamTravellingKokkos<Style, DeviceType>(lmp, narg, arg, X_MASK | V_MASK | RADIUS_MASK)
   {
-    here.groupbit = this->groupbit;
+    space.groupbit = this->groupbit;
     if (std::is_same_v<KK_FLOAT, float>) {
       this->residuals.use(lmp->atom->nmax);
-      here.residuals = &this->residuals;
+      space.residuals = &this->residuals;
     }
   }
 
  protected:
-  using FoamTravellingKokkos<Style, DeviceType>::here;
+  using FoamTravellingKokkos<Style, DeviceType>::space;
 
   Foam::Judgement candidate(double step, bool first) override
   {
     return Foam::with_dimension(
-        this->dim, [&]<int D>() { return this->template candidate_in<D>(here, step, first); });
+        this->dim, [&]<int D>() { return this->template candidate_in<D>(space, step, first); });
   }
-  void keep_history() override { this->keep_history_in(here); }
-  void take_rates(bool history) override { this->take_rates_in(here, history); }
-  void redistribute(double factor) override { this->redistribute_in(here, factor); }
-  void return_to_start() override { this->return_to_start_in(here); }
+  void keep_history() override { this->keep_history_in(space); }
+  void take_rates(bool history) override { this->take_rates_in(space, history); }
+  void redistribute(double factor) override { this->redistribute_in(space, factor); }
+  void return_to_start() override { this->return_to_start_in(space); }
   void take_listed() override
   {
-    this->take_listed_in(here);
+    this->take_listed_in(space);
     this->pair->take_list();
   }
-  double largest_radius() override { return this->largest_radius_in(here); }
-  double count_bubbles() override { return this->count_bubbles_in(here); }
+  double largest_radius() override { return this->largest_radius_in(space); }
+  double count_bubbles() override { return this->count_bubbles_in(space); }
 
   void host_reads() override { this->atomKK->sync(Host, ALL_MASK); }
   void host_wrote() override
@@ -99,8 +99,8 @@ class FixFoamIntegrateKokkos : public FoamTravellingKokkos<Style, DeviceType> {
   void clear_forces()
   {
     this->atomKK->k_f.clear_sync_state();
-    here.for_all(this->atom->nlocal + (this->force->newton ? this->atom->nghost : 0),
-                 FoamClearForces<DeviceType>{this->atomKK->k_f.template view<DeviceType>()});
+    space.for_all(this->atom->nlocal + (this->force->newton ? this->atom->nghost : 0),
+                  FoamClearForces<DeviceType>{this->atomKK->k_f.template view<DeviceType>()});
     this->atomKK->modified(FoamKokkos<DeviceType>::SPACE, F_MASK);
   }
 };

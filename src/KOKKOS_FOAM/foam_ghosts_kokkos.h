@@ -14,7 +14,7 @@
 
 namespace LAMMPS_NS {
 
-// Ghosts of a single rank: images of owned bubbles, some boxes away. As a body, counts these.
+// Ghosts of a single rank: images of owned bubbles, some boxes away. As a functor, counts these.
 
 template <class DeviceType> struct FoamGhosts {
   static constexpr const char *NAME = "foam: boxes of ghosts";

@@ -114,20 +114,20 @@ template <class Value, class Space> class FoamJoin {
 
 // A functor for bubbles alone
 
-template <class Body> struct FoamEachBubble {
-  Body body;
+template <class Functor> struct FoamEachBubble {
+  Functor functor;
   Foam::Members member;
   KOKKOS_INLINE_FUNCTION void operator()(int i) const
   {
-    if (member(i)) body(i);
+    if (member(i)) functor(i);
   }
 };
-template <class Body, class Value> struct FoamReduceBubbles {
-  Body body;
+template <class Functor, class Value> struct FoamReduceBubbles {
+  Functor functor;
   Foam::Members member;
   KOKKOS_INLINE_FUNCTION void operator()(int i, Value &value) const
   {
-    if (member(i)) body(i, value);
+    if (member(i)) functor(i, value);
   }
 };
 
@@ -189,52 +189,53 @@ template <class DeviceType> class FoamKokkos : protected Pointers {
 #endif
   }
 
-  template <class Body> void for_all(int n, const Body &body) const
+  template <class Functor> void for_all(int n, const Functor &functor) const
   {
-    Kokkos::parallel_for(Body::NAME, Kokkos::RangePolicy<DeviceType>(0, n), body);
+    Kokkos::parallel_for(Functor::NAME, Kokkos::RangePolicy<DeviceType>(0, n), functor);
   }
-  template <class Body> void for_each(int n, const Body &body) const
+  template <class Functor> void for_each(int n, const Functor &functor) const
   {
-    Kokkos::parallel_for(Body::NAME, Kokkos::RangePolicy<DeviceType>(0, n),
-                         FoamEachBubble<Body>{body, members(groupbit)});
+    Kokkos::parallel_for(Functor::NAME, Kokkos::RangePolicy<DeviceType>(0, n),
+                         FoamEachBubble<Functor>{functor, members(groupbit)});
   }
 
   // the host waits for these
 
-  template <class Value, class Body> Value reduce(int n, const Body &body) const
+  template <class Value, class Functor> Value reduce(int n, const Functor &functor) const
   {
     Value mine;
-    Kokkos::parallel_reduce(Body::NAME, Kokkos::RangePolicy<DeviceType>(0, n),
-                            FoamReduceBubbles<Body, Value>{body, members(groupbit)},
+    Kokkos::parallel_reduce(Functor::NAME, Kokkos::RangePolicy<DeviceType>(0, n),
+                            FoamReduceBubbles<Functor, Value>{functor, members(groupbit)},
                             FoamJoin<Value, Kokkos::HostSpace>(&mine));
     return mine;
   }
-  template <class Totals, class Body> Totals totals(int n, const Body &body) const
+  template <class Totals, class Functor> Totals totals(int n, const Functor &functor) const
   {
-    return reduce<Totals>(n, body);
+    return reduce<Totals>(n, functor);
   }
 
   // Sums over all ranks. Those of a single rank with a device stay there.
 
-  template <class Totals, class Body> Foam::Sums<Totals> sums(int n, const Body &body) const
+  template <class Totals, class Functor>
+  Foam::Sums<Totals> sums(int n, const Functor &functor) const
   {
     int nprocs;
     MPI_Comm_size(world, &nprocs);
-    if (ON_HOST || nprocs > 1) return {foam_reduce(reduce<Totals>(n, body), world)};
+    if (ON_HOST || nprocs > 1) return {foam_reduce(reduce<Totals>(n, functor), world)};
     static_assert(sizeof(Totals) <= sizeof(double) * SLOT_SIZE);
     auto *const there = reinterpret_cast<Totals *>(sums_there.data() + SLOT_SIZE * Totals::SLOT);
-    Kokkos::parallel_reduce(Body::NAME, Kokkos::RangePolicy<DeviceType>(0, n),
-                            FoamReduceBubbles<Body, Totals>{body, members(groupbit)},
+    Kokkos::parallel_reduce(Functor::NAME, Kokkos::RangePolicy<DeviceType>(0, n),
+                            FoamReduceBubbles<Functor, Totals>{functor, members(groupbit)},
                             FoamJoin<Totals, typename DeviceType::memory_space>(there));
     return {{}, there};
   }
-  template <class Totals> static Totals fetch(const Totals *elsewhere)
+  template <class Totals> static Totals fetch(const Totals *there)
   {
     using Here = Kokkos::View<Totals, Kokkos::HostSpace, Kokkos::MemoryUnmanaged>;
     using There =
         Kokkos::View<const Totals, typename DeviceType::memory_space, Kokkos::MemoryUnmanaged>;
     Totals all;
-    Kokkos::deep_copy(Here(&all), There(elsewhere));
+    Kokkos::deep_copy(Here(&all), There(there));
     return all;
   }
 

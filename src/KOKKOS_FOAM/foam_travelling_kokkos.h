@@ -67,13 +67,13 @@ template <class Style, class DeviceType>
 class FoamTravellingKokkos : public Style, public KokkosBase {
  public:
   FoamTravellingKokkos(LAMMPS *lmp, int narg, char **arg, uint64_t changes)
-      : Style(lmp, narg, arg), here(lmp, changes)
+      : Style(lmp, narg, arg), space(lmp, changes)
   {
     this->kokkosable = 1;
     this->exchange_comm_device = this->sort_device = std::is_same_v<DeviceType, LMPDeviceType>;
     this->execution_space = FoamKokkos<DeviceType>::SPACE;
     this->datamask_read = this->datamask_modify = EMPTY_MASK;    // the loops see to it
-    here.keep(this->all_columns);
+    space.keep(this->all_columns);
   }
 
   void post_constructor() override { foam_strip_suffix(this->style); }
@@ -104,7 +104,7 @@ class FoamTravellingKokkos : public Style, public KokkosBase {
   }
 
  protected:
-  FoamKokkos<DeviceType> here;
+  FoamKokkos<DeviceType> space;
 
  private:
   // LAMMPS has the buffer on the side of its communication, device or host

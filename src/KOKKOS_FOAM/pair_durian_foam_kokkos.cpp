@@ -27,7 +27,7 @@ using namespace LAMMPS_NS;
 
 template <class DeviceType>
 PairDurianFoamKokkos<DeviceType>::PairDurianFoamKokkos(LAMMPS *lmp)
-    : PairDurianFoam(lmp), here(lmp, F_MASK)
+    : PairDurianFoam(lmp), space(lmp, F_MASK)
 {
   kokkosable = 1;
   execution_space = ExecutionSpaceFromDevice<DeviceType>::space;
@@ -35,7 +35,7 @@ PairDurianFoamKokkos<DeviceType>::PairDurianFoamKokkos(LAMMPS *lmp)
   datamask_modify = F_MASK | ENERGY_MASK | VIRIAL_MASK;
   list_flags |= NeighConst::REQ_NEWTON_OFF;
   comm_forward = 1;
-  here.keep(all_columns);
+  space.keep(all_columns);
 }
 
 template <class DeviceType> PairDurianFoamKokkos<DeviceType>::~PairDurianFoamKokkos()
@@ -143,7 +143,7 @@ template <class DeviceType> void PairDurianFoamKokkos<DeviceType>::make_rows()
       nlocal,
       chunk};
 
-  here.for_each(list->inum, FoamMakeRows::CountPairs<DeviceType>{pairs});
+  space.for_each(list->inum, FoamMakeRows::CountPairs<DeviceType>{pairs});
   int total = 0;
   Kokkos::parallel_scan("foam: place rows", Kokkos::RangePolicy<DeviceType>(0, nlocal + 1),
                         FoamMakeRows::PlaceRows<DeviceType>{pairs}, total);
@@ -153,10 +153,10 @@ template <class DeviceType> void PairDurianFoamKokkos<DeviceType>::make_rows()
         static_cast<size_t>(1.1 * total));
   FoamMakeRows::ListedPairs<DeviceType> placed = pairs;
   placed.rows = rows;
-  here.for_each(list->inum, FoamMakeRows::FillRows<DeviceType>{placed});
+  space.for_each(list->inum, FoamMakeRows::FillRows<DeviceType>{placed});
   atomKK->sync(execution_space, TAG_MASK);
-  here.for_each(nlocal,
-                FoamMakeRows::SortRows<DeviceType>{placed, atomKK->k_tag.view<DeviceType>()});
+  space.for_each(nlocal,
+                 FoamMakeRows::SortRows<DeviceType>{placed, atomKK->k_tag.view<DeviceType>()});
 }
 
 // each bubble's index goes the way of its other numbers, also from ghost to ghost
@@ -170,23 +170,28 @@ template <class DeviceType> void PairDurianFoamKokkos<DeviceType>::make_owners()
     k_owner = DAT::tdual_int_1d("durian/foam:owner", atom->nmax);
   if (static_cast<int>(boxes.extent(0)) < nghost) boxes = Boxes("durian/foam:boxes", 1.2 * nghost);
 
-  here.for_each(nlocal, OwnIndex<DeviceType>{k_owner.view<DeviceType>()});
+  space.for_each(nlocal, OwnIndex<DeviceType>{k_owner.view<DeviceType>()});
   k_owner.modify<DeviceType>();
   sending = OWNERS;
   comm->forward_comm(this);
   k_owner.sync<DeviceType>();
-  here.for_each(nghost, ghosts());
+  space.for_each(nghost, ghosts());
   owners_known = true;
 }
 
 template <class DeviceType> FoamGhosts<DeviceType> PairDurianFoamKokkos<DeviceType>::ghosts() const
 {
   const Domain &d = *domain;
-  return {here.bubbles(), k_owner.view<DeviceType>(),
-          boxes,          atom->nlocal,
-          d.xprd,         d.yprd,
-          d.zprd,         d.xy,
-          d.xz,           d.yz};
+  return {space.bubbles(),
+          k_owner.view<DeviceType>(),
+          boxes,
+          atom->nlocal,
+          d.xprd,
+          d.yprd,
+          d.zprd,
+          d.xy,
+          d.xz,
+          d.yz};
 }
 
 template <class DeviceType> bool PairDurianFoamKokkos<DeviceType>::refresh_ghosts(Ghosts what)
@@ -196,10 +201,10 @@ template <class DeviceType> bool PairDurianFoamKokkos<DeviceType>::refresh_ghost
   if (what == Ghosts::EVERYTHING && velocities && domain->deform_vremap) return false;
   const auto all = ghosts();
   if (what == Ghosts::RADII) {
-    here.for_each(atom->nghost, RefreshGhosts<DeviceType, false>{all, false});
+    space.for_each(atom->nghost, RefreshGhosts<DeviceType, false>{all, false});
     atomKK->modified(execution_space, RADIUS_MASK);
   } else {
-    here.for_each(atom->nghost, RefreshGhosts<DeviceType, true>{all, velocities});
+    space.for_each(atom->nghost, RefreshGhosts<DeviceType, true>{all, velocities});
     atomKK->modified(execution_space, X_MASK | RADIUS_MASK | (velocities ? V_MASK : EMPTY_MASK));
     ghosts_fresh = true;
   }
@@ -246,9 +251,9 @@ int PairDurianFoamKokkos<DeviceType>::pack_forward_comm_kokkos(int n, DAT::tdual
   const auto sent = k_sent.view<DeviceType>();
   double *const buf = k_buf.view<DeviceType>().data();
   if (sending == OWNERS)
-    here.for_each(n, PackOne{k_owner.view<DeviceType>(), sent, buf});
+    space.for_each(n, PackOne{k_owner.view<DeviceType>(), sent, buf});
   else
-    here.for_each(n, PackOne{here.bubbles().radius, sent, buf});
+    space.for_each(n, PackOne{space.bubbles().radius, sent, buf});
   return n;
 }
 
@@ -258,10 +263,10 @@ void PairDurianFoamKokkos<DeviceType>::unpack_forward_comm_kokkos(int n, int fir
 {
   const double *const buf = k_buf.view<DeviceType>().data();
   if (sending == OWNERS) {
-    here.for_each(n, UnpackOne{k_owner.view<DeviceType>(), buf, first});
+    space.for_each(n, UnpackOne{k_owner.view<DeviceType>(), buf, first});
     k_owner.modify<DeviceType>();
   } else {
-    here.for_each(n, UnpackOne{here.bubbles().radius, buf, first});
+    space.for_each(n, UnpackOne{space.bubbles().radius, buf, first});
     atomKK->modified(execution_space, RADIUS_MASK);
   }
 }
@@ -400,27 +405,27 @@ void PairDurianFoamKokkos<DeviceType>::gather_in(const Law &chosen, unsigned wha
   const int nlocal = atom->nlocal;
   const bool clear = fuse_force_clear_flag;
   const Foam::Coefficients coefficients{sigma0_there.data(), atom->ntypes, hub.record.rin};
-  const Foam::ContactSums sums = contact_sums(here);
+  const Foam::ContactSums sums = contact_sums(space);
 
   auto run = [&]<bool CHUNKS>() {
     const int n = CHUNKS ? (nlocal + chunk - 1) / chunk : nlocal;
     using Tally = std::conditional_t<WHAT == Foam::ANY, KokkosTally<DeviceType>, Foam::NoTally>;
     using Loop = Foam::ContactLoop<D, WHAT, !CHUNKS, Law, B, Rows, Tally>;
-    const Loop loop{here.bubbles(), rows, chosen, coefficients, sums, !clear, what};
+    const Loop loop{space.bubbles(), rows, chosen, coefficients, sums, !clear, what};
     if constexpr (WHAT == Foam::ANY) {
       const Tally tally{nullptr, eflag_atom != 0, vflag_atom != 0,
                         k_eatom.template view<DeviceType>(), k_vatom.template view<DeviceType>()};
-      const auto all = here.template reduce<EnergyVirial>(
+      const auto all = space.template reduce<EnergyVirial>(
           n, TalliedContacts<WHAT, CHUNKS, Loop, DeviceType>{loop, chunk, nlocal, clear, tally});
       if (eflag_global) eng_vdwl += all.energy;
       if (vflag_global)
         for (int k = 0; k < 6; k++) virial[k] += all.virial[k];
     } else if constexpr ((WHAT & Foam::FORCE) && (WHAT & Foam::AREA)) {
-      hub.free_surface = here.template sums<Foam::FreeSurface>(
+      hub.free_surface = space.template sums<Foam::FreeSurface>(
           n, SummedContacts<D, WHAT, CHUNKS, Loop>{loop, chunk, nlocal, clear, hub.liquid_law});
       hub.free_surface_known = true;
     } else
-      here.for_each(n, Contacts<WHAT, CHUNKS, Loop>{loop, chunk, nlocal, clear});
+      space.for_each(n, Contacts<WHAT, CHUNKS, Loop>{loop, chunk, nlocal, clear});
   };
   if constexpr (FoamKokkos<DeviceType>::ON_HOST) {
     if (chunk > 1) return run.template operator()<true>();

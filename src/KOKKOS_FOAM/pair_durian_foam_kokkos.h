@@ -66,7 +66,7 @@ template <class DeviceType> class PairDurianFoamKokkos : public PairDurianFoam, 
   void gather_contacts(unsigned) override;
 
  private:
-  FoamKokkos<DeviceType> here;
+  FoamKokkos<DeviceType> space;
   FoamRows<DeviceType> rows;
   int chunk = 1;    // bubbles in it
 
