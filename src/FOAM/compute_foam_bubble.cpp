@@ -94,7 +94,7 @@ void ComputeFoamBubble::gather()
     error->all(FLERR,
                "Compute foam/bubble: the neighbor list is that of another foam: use run 0 after "
                "commands that change the pair style or the number of bubbles");
-  pair->gather();
+  pair->gather_diagnostics();
 }
 
 void ComputeFoamBubble::compute_peratom()

@@ -11,11 +11,11 @@
 #define LMP_FOAM_LAW_SPRING_H
 
 #include "foam_law.h"
-#include "foam_physics.h"
 
 namespace Foam {
 
-// Overlap spring [D95]
+// Overlap spring [D95]: magnitude of the repulsion and its potential, with stiffness = sigma0 <R_in>,
+//   F = stiffness overlap / (R_i + R_j),  U = stiffness overlap^2 / (2 (R_i + R_j))
 
 struct SpringLaw {
   static constexpr const char *NAME = "spring";
@@ -24,11 +24,11 @@ struct SpringLaw {
 
   FOAM_FUNCTION double force(double stiffness, double overlap, double Rsum) const
   {
-    return spring_force(stiffness, overlap, Rsum);
+    return stiffness * overlap / Rsum;
   }
   FOAM_FUNCTION double energy(double stiffness, double overlap, double Rsum) const
   {
-    return spring_energy(stiffness, overlap, Rsum);
+    return 0.5 * stiffness * overlap * overlap / Rsum;
   }
 };
 

@@ -106,20 +106,6 @@ template <int D> FOAM_FUNCTION double contact_area(double r, double Ri, double R
   return D == 2 ? 2.0 * std::sqrt(h2) : PI * h2;
 }
 
-// Overlap spring [D95]: magnitude of the repulsion and its potential,
-// F = sigma0 <R_in> overlap / (R_i + R_j), U = sigma0 <R_in> overlap^2 / (2 (R_i + R_j));
-// stiffness = sigma0 <R_in>
-
-FOAM_FUNCTION double spring_force(double stiffness, double overlap, double Rsum)
-{
-  return stiffness * overlap / Rsum;
-}
-
-FOAM_FUNCTION double spring_energy(double stiffness, double overlap, double Rsum)
-{
-  return 0.5 * stiffness * overlap * overlap / Rsum;
-}
-
 // one bubble's share of the energy of [L20], E = (1/2) sigma0 sum_i sum_j overlap^2
 // over ordered pairs; not the potential of the force, kept to compare curves
 

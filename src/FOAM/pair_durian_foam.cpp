@@ -58,8 +58,9 @@ PairDurianFoam::~PairDurianFoam()
 
 // over LAMMPS' half list, each pair once: ghosts collect their part, and send it home
 
-void PairDurianFoam::gather_contacts(unsigned what)
+void PairDurianFoam::gather(unsigned what)
 {
+  make_room(what);
   Foam::with_law(law, [&](const auto &chosen) {
     Foam::with_gathered(what, evflag, [&]<unsigned WHAT>() {
       Foam::with_dimension(domain->dimension, [&]<int D>() { gather_in<D, WHAT>(chosen, what); });

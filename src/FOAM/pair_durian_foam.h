@@ -46,7 +46,7 @@ class PairDurianFoam : public PairFoam {
   Foam::LawChoice law;
 
   void allocate();
-  void gather_contacts(unsigned) override;
+  void gather(unsigned what) override;
   struct Tally;
   template <int D, unsigned WHAT, class Law> void gather_in(const Law &, unsigned what);
 };

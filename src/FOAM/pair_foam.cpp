@@ -57,17 +57,16 @@ unsigned PairFoam::gathered_with_forces() const
   return Foam::FORCE | (neighbor_drag ? Foam::DRAG : 0u) | hub.gas_wanted;
 }
 
-void PairFoam::gather()
+void PairFoam::gather_diagnostics()
 {
   ev_unset();
   if (domain->box_change) comm->forward_comm();    // at output the box may have moved once more
   gather(Foam::DIAGNOSTICS);
 }
 
-void PairFoam::gather(unsigned what)
+void PairFoam::make_room(unsigned what)
 {
   for (FoamColumns *sums : chosen(all_columns, what)) sums->use(atom->nmax);
-  gather_contacts(what);
 }
 
 int PairFoam::pack_reverse_comm(int n, int first, double *buf)

@@ -34,8 +34,8 @@ class PairFoam : public Pair {
 
   FoamHub hub;
 
-  void gather();     // Foam::DIAGNOSTICS of this state, for computes
-  void refresh();    // cutoffs, ghosts and bins for bubbles that have grown
+  void gather_diagnostics();    // Foam::DIAGNOSTICS of this state, for computes
+  void refresh();               // cutoffs, ghosts and bins for bubbles that have grown
   bool outgrown(double R) const { return R > cutoff_radius; }    // have bubbles of this radius?
   virtual double stiffest() const = 0;                           // largest spring constant
 
@@ -80,8 +80,8 @@ class PairFoam : public Pair {
   unsigned gathered = 0;         // what is sent in reverse communication
 
   unsigned gathered_with_forces() const;
-  void gather(unsigned);
-  virtual void gather_contacts(unsigned) = 0;    // the loop itself
+  void make_room(unsigned what);
+  virtual void gather(unsigned what) = 0;    // makes room, and runs the loop over contacts
 
  private:
   bool rerun_told = false, inertia_told = false;

@@ -385,8 +385,9 @@ template <unsigned WHAT, bool CHUNKS, class Loop, class DeviceType> struct Talli
 
 }    // namespace
 
-template <class DeviceType> void PairDurianFoamKokkos<DeviceType>::gather_contacts(unsigned what)
+template <class DeviceType> void PairDurianFoamKokkos<DeviceType>::gather(unsigned what)
 {
+  make_room(what);
   take_list();
   hub.free_surface_known = false;
   Foam::with_law(law, [&](const auto &chosen) {

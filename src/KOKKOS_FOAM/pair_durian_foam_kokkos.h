@@ -60,10 +60,8 @@ template <class DeviceType> class PairDurianFoamKokkos : public PairDurianFoam, 
 
   void take_list() override;
 
-  using PairFoam::gather;
-
  protected:
-  void gather_contacts(unsigned) override;
+  void gather(unsigned what) override;
 
  private:
   FoamKokkos<DeviceType> space;

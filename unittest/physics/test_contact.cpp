@@ -1,5 +1,6 @@
 // Geometry of one bubble and of a contact, and the spring that acts in it.
 
+#include "foam_law_spring.h"
 #include "foam_physics.h"
 #include "samples.h"
 
@@ -8,6 +9,8 @@
 using namespace Foam;
 
 namespace {
+
+const SpringLaw SPRING(nullptr);    // it has no parameters
 
 // h^2 = R_j^2 - a^2 with a = (r^2 + R_j^2 - R_i^2) / (2 r), in more digits
 
@@ -210,8 +213,8 @@ TEST(Lens, SameForBothPartners)
 TEST(Spring, ClosedForm)
 {
   // sigma0 <R_in> = 2, R_i + R_j = 3, overlap 0.6
-  EXPECT_DOUBLE_EQ(spring_force(2.0, 0.6, 3.0), 0.4);
-  EXPECT_DOUBLE_EQ(spring_energy(2.0, 0.6, 3.0), 0.12);
+  EXPECT_DOUBLE_EQ(SPRING.force(2.0, 0.6, 3.0), 0.4);
+  EXPECT_DOUBLE_EQ(SPRING.energy(2.0, 0.6, 3.0), 0.12);
   EXPECT_DOUBLE_EQ(durian_energy(2.0, 0.6), 0.36);    // for each of the two
 }
 
@@ -222,20 +225,20 @@ TEST(Spring, ForceIsMinusDerivativeOfEnergy)
   for (int n = 0; n < 1000; n++) {
     const double Rsum = samples.uniform(0.5, 3.0), r = samples.uniform(0.0, 0.99 * Rsum);
     const double step = std::ldexp(1.0, -10);
-    const double slope = (spring_energy(1.5, Rsum - (r + step), Rsum) -
-                          spring_energy(1.5, Rsum - (r - step), Rsum)) /
+    const double slope = (SPRING.energy(1.5, Rsum - (r + step), Rsum) -
+                          SPRING.energy(1.5, Rsum - (r - step), Rsum)) /
                          (2.0 * step);
-    EXPECT_NEAR(spring_force(1.5, Rsum - r, Rsum), -slope, 1.0e-11);
+    EXPECT_NEAR(SPRING.force(1.5, Rsum - r, Rsum), -slope, 1.0e-11);
   }
 }
 
 TEST(Spring, LimitsAreFinite)
 {
-  EXPECT_EQ(spring_force(1.0, 0.0, 2.0), 0.0);    // just touching
-  EXPECT_EQ(spring_energy(1.0, 0.0, 2.0), 0.0);
-  EXPECT_EQ(spring_force(1.0, 2.0, 2.0), 1.0);    // coincident: sigma0 <R_in>
-  EXPECT_EQ(spring_energy(1.0, 2.0, 2.0), 1.0);
-  EXPECT_DOUBLE_EQ(spring_force(1.0, 1.0e6 + 1.0, 1.0e6 + 1.0), 1.0);
+  EXPECT_EQ(SPRING.force(1.0, 0.0, 2.0), 0.0);    // just touching
+  EXPECT_EQ(SPRING.energy(1.0, 0.0, 2.0), 0.0);
+  EXPECT_EQ(SPRING.force(1.0, 2.0, 2.0), 1.0);    // coincident: sigma0 <R_in>
+  EXPECT_EQ(SPRING.energy(1.0, 2.0, 2.0), 1.0);
+  EXPECT_DOUBLE_EQ(SPRING.force(1.0, 1.0e6 + 1.0, 1.0e6 + 1.0), 1.0);
 }
 
 TEST(Spring, CoincidentBubblesPartInOppositeDirections)

@@ -28,7 +28,8 @@ NAMES = ["plain", "3D", "neighbor drag", "neighbor drag 3D on 2 ranks", "drift r
          "sorted often on 2 ranks", "cutoffs renewed on 4 ranks", "sheared, rkc, 2 ranks", "other forces",
          "viscous", "two runs", "pre no", "restarts written", "integrator again", "exchange again",
          "drag changed", "minimized", "bubbles added", "bubbles deleted", "radii changed",
-         "state stored, 2 ranks", "contact ages", "contact ages, 2 ranks"]
+         "state stored, 2 ranks", "contact ages", "contact ages, 2 ranks", "among others",
+         "among others, rkc, neighbor drag, 2 ranks"]
 
 
 @pytest.mark.parametrize("name", NAMES)

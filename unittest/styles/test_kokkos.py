@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from runner import BACKENDS, KOKKOS, ON_DEVICE, PRECISE, Runner, data_file, tiled
+from test_members import among_others
 from foams import SAME, SHORT, SIZE, assert_same_run, assert_same_state, case, foam, state
 
 GPU = "cuda" in BACKENDS    # else a CPU, with as many threads as we like
@@ -174,6 +175,9 @@ SCENES = {
                                pair="drag neighbor"),
     "box changed": dict(run="run 60\nchange_box all x scale 0.95 y scale 0.95 remap\nrun 60"),
     "replicated": dict(text=after_data("replicate 2 1 1"), ranks=2),
+    "among others": dict(text=among_others),
+    "among others, rkc, neighbor drag, 2 ranks": dict(text=among_others, integrator="rkc", run="run 60",
+                                                      pair="drag neighbor", ranks=2),
     "new IDs": dict(run="run 60\nreset_atoms id\nrun 60", ranks=2),
 
     # numbers of each bubble that other fixes keep, on the host
