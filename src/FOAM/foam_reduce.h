@@ -63,7 +63,9 @@ template <class Totals> class FoamReduce {
 
 template <class Totals> Totals foam_reduce(const Totals &mine, MPI_Comm comm)
 {
-  return FoamReduce<Totals>(comm)(mine);
+  int ranks;
+  MPI_Comm_size(comm, &ranks);
+  return ranks == 1 ? mine : FoamReduce<Totals>(comm)(mine);
 }
 
 }    // namespace LAMMPS_NS
