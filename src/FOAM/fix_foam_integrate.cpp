@@ -14,167 +14,17 @@
 #include "domain.h"
 #include "error.h"
 #include "force.h"
-#include "memory.h"
 #include "modify.h"
 #include "neighbor.h"
 #include "output.h"
 #include "timer.h"
 #include "update.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <vector>
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
-
-/* ----------------------------------------------------------------------
-   fix ID group-ID STYLE tolerance keyword value ...
-------------------------------------------------------------------------- */
-
-FixFoamIntegrate::FixFoamIntegrate(LAMMPS *lmp, int narg, char **arg)
-    : Fix(lmp, narg, arg), reduce(world), list(lmp), out(lmp), dim(domain->dimension)
-{
-  time_integrate = 1;
-  force_reneighbor = 1;
-  next_reneighbor = -1;
-  nevery = 1;
-
-  vector_flag = 1;
-  size_vector = 7;
-  global_freq = 1;
-  extvector = 0;
-
-  restart_global = 1;
-  restart_peratom = 1;
-  create_attribute = 1;
-  maxexchange = maxsize_restart() - 1;
-  columns.use(atom->nmax);
-}
-
-void FixFoamIntegrate::settings(int narg, char **arg, const FoamInput::Keywords &own)
-{
-  using Value = FoamInput::Value;
-  FoamInput input(error, fmt::format("Fix {}", style), narg - 3, arg + 3);
-  driver.control.tolerance = input.argument("tolerance").number(FoamInput::ABOVE, 0.0);
-
-  FoamInput::Keywords all{
-      {"dt0",
-       [&](const Value &v) {
-         dt_start = v.number(FoamInput::ABOVE, 0.0);
-       }},
-      {"dtmax",
-       [&](const Value &v) {
-         dt_limit = v.number(FoamInput::ABOVE, 0.0);
-       }},
-      {"variable",
-       [&](const Value &v) {
-         variable =
-             v.one_of({"volume", "radius"}) == 1 ? Foam::Variable::RADIUS : Foam::Variable::VOLUME;
-       }},
-      {"norm",
-       [&](const Value &v) {
-         norm = v.one_of({"max", "rms"}) == 1 ? Foam::Norm::RMS : Foam::Norm::MAX;
-         norm_given = true;
-       }},
-      {"safety",
-       [&](const Value &v) {
-         driver.control.safety = v.between(0.0, 1.0);
-       }},
-      {"growth",
-       [&](const Value &v) {
-         driver.control.growth = v.number(FoamInput::ABOVE, 1.0);
-       }},
-      {"drift", [&](const Value &v) {
-         drift_removed = v.one_of({"keep", "remove"}) == 1;
-         drift_given = true;
-       }}};
-  all.insert(all.end(), own.begin(), own.end());
-  input.keywords(all);
-}
-
-// The last that a constructor does: a constructor that ends in an error has no callbacks to take back,
-// and LAMMPS, asked to, would end the program.
-
-void FixFoamIntegrate::add_callbacks()
-{
-  atom->add_callback(Atom::GROW);
-  atom->add_callback(Atom::RESTART);
-  called_back = true;
-}
-
-FixFoamIntegrate::~FixFoamIntegrate()
-{
-  if (!called_back) return;
-  atom->delete_callback(id, Atom::GROW);
-  atom->delete_callback(id, Atom::RESTART);
-}
-
-int FixFoamIntegrate::setmask()
-{
-  return INITIAL_INTEGRATE | PRE_EXCHANGE | PRE_NEIGHBOR | POST_NEIGHBOR | FINAL_INTEGRATE |
-         END_OF_STEP;
-}
-
-void FixFoamIntegrate::init()
-{
-  dim = domain->dimension;
-  pair = PairFoam::of(lmp);
-  if (!pair) error->all(FLERR, "Fix {} needs one pair_style durian/foam", style);
-  if (force->bond || force->angle || force->dihedral || force->improper || force->kspace)
-    error->all(FLERR,
-               "Fix {} evaluates pair forces and fixes only: "
-               "bonds, angles, dihedrals, impropers and kspace are not allowed",
-               style);
-  if (utils::strmatch(update->integrate_style, "^respa"))
-    error->all(FLERR, "Fix {} cannot be used with run_style respa: use verlet", style);
-
-  if (!(neighbor->skin > 0.0))
-    error->all(FLERR,
-               "Fix {} needs a neighbor skin > 0, in which bubbles may move and grow: "
-               "see the neighbor command",
-               style);
-
-  gas = nullptr;
-  followers.clear();
-  for (auto &ifix : modify->get_fix_list()) {
-    if (auto *found = dynamic_cast<FixFoamCoarsen *>(ifix)) gas = found;
-    if (auto *found = dynamic_cast<FoamFollower *>(ifix)) followers.push_back(found);
-  }
-  check_companions();
-  time_then = driver.time;
-  if (record.rin > 0.0) pair->hub.go_on_from(record);
-
-  const bool drifts =
-      pair->neighbor_drag && domain->xperiodic && domain->yperiodic && domain->zperiodic;
-  if (!drift_given) drift_removed = drifts && suffers_from_drift();
-  if (drifts && !drift_removed && comm->me == 0)
-    error->warning(FLERR,
-                   "Fix {}: with neighbor drag, nothing holds the foam as a whole in a "
-                   "periodic box: it drifts, faster with more steps; see keyword drift",
-                   style);
-
-  // what is switched off is not gathered
-
-  pair->hub.gas_wanted = 0;
-  if (gas) gas->tell(pair->hub);
-  pair->hub.radii_change = gas != nullptr;
-  lag.active = pair->neighbor_drag && evaluates_again();    // the source takes v itself for l
-  if (pair->neighbor_drag) lag.columns.use(atom->nmax);
-}
-
-// fix enforce2d, which 2D scenes often have, sets to 0 what is 0
-
-bool FixFoamIntegrate::others_act() const
-{
-  if (!modify->n_pre_force && !modify->n_post_force_any) return false;
-  for (int m = 0; m < modify->nfix; m++)
-    if ((modify->fmask[m] & (PRE_FORCE | POST_FORCE)) &&
-        !utils::strmatch(modify->fix[m]->style, "^enforce2d"))
-      return true;
-  return false;
-}
 
 /* ----------------------------------------------------------------------
    one timestep: steps are tried until one is accepted
@@ -354,6 +204,18 @@ void FixFoamIntegrate::compute_forces(int eflag, int vflag)
   if (force->newton) comm->reverse_comm();
   timer->stamp(Timer::COMM);
   if (modify->n_post_force_any) modify->post_force(vflag);
+}
+
+// fix enforce2d, which 2D scenes often have, sets to 0 what is 0
+
+bool FixFoamIntegrate::others_act() const
+{
+  if (!modify->n_pre_force && !modify->n_post_force_any) return false;
+  for (int m = 0; m < modify->nfix; m++)
+    if ((modify->fmask[m] & (PRE_FORCE | POST_FORCE)) &&
+        !utils::strmatch(modify->fix[m]->style, "^enforce2d"))
+      return true;
+  return false;
 }
 
 // Forces of other fixes may depend on time, which LAMMPS counts in steps: its last time, and the steps since
