@@ -23,33 +23,29 @@
 #include "neigh_list.h"
 #include "update.h"
 
-#include <cstring>
+#include <algorithm>
+#include <iterator>
+#include <string>
 
 using namespace LAMMPS_NS;
-
-static const char *const NAMES[] = {"contacts", "area", "free",    "vfilm",
-                                    "vliquid",  "rdot", "espring", "edurian"};
 
 /* ---------------------------------------------------------------------- */
 
 ComputeFoamBubble::ComputeFoamBubble(LAMMPS *lmp, int narg, char **arg)
     : Compute(lmp, narg, arg), pair(nullptr), gas(nullptr), nmax(0), vector(nullptr), array(nullptr)
 {
-  if (narg < 4)
-    error->all(FLERR, "Compute foam/bubble needs at least one quantity: "
-                      "contacts, area, free, vfilm, vliquid, rdot, espring or edurian");
+  std::string all;
+  for (const char *name : Foam::QUANTITIES) all += (all.empty() ? "" : ", ") + std::string(name);
+  if (narg < 4) error->all(FLERR, "Compute foam/bubble needs at least one quantity: {}", all);
   for (int iarg = 3; iarg < narg; iarg++) {
-    int q = 0;
-    constexpr int LAST = static_cast<int>(Foam::Quantity::EDURIAN);
-    while (q <= LAST && strcmp(arg[iarg], NAMES[q]) != 0) q++;
-    if (q > LAST)
-      error->all(FLERR,
-                 "Compute foam/bubble: unknown quantity {} "
-                 "(allowed are contacts, area, free, vfilm, vliquid, rdot, espring, edurian)",
-                 FoamInput::shown(arg[iarg]));
+    const auto *const found =
+        std::find(std::begin(Foam::QUANTITIES), std::end(Foam::QUANTITIES), std::string(arg[iarg]));
+    if (found == std::end(Foam::QUANTITIES))
+      error->all(FLERR, "Compute foam/bubble: unknown quantity {} (allowed are {})",
+                 FoamInput::shown(arg[iarg]), all);
     if (wanted.count == Foam::Quantities::MOST)
       error->all(FLERR, "Compute foam/bubble: at most {} quantities", Foam::Quantities::MOST);
-    wanted.name[wanted.count++] = static_cast<Foam::Quantity>(q);
+    wanted.name[wanted.count++] = static_cast<Foam::Quantity>(found - std::begin(Foam::QUANTITIES));
   }
 
   peratom_flag = 1;

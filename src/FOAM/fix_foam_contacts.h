@@ -89,7 +89,7 @@ class FixFoamContacts : public Fix, public FoamFollower {
   double at_first = 0.0;                    // contacts when this fix began
   double formed = 0.0;                      // since then, by bubbles of this rank
   Foam::ContactTotals last, last_of_all;    // of the state that is committed
-  bool reduced = false;    // the latter, with all that have formed in place of FORMED
+  bool reduced = false;    // the latter, with all that have formed in place of formed
 
   Foam::ContactTotals try_out(double later);
   void take(const Foam::ContactTotals &);

@@ -32,6 +32,9 @@ using namespace FixConst;
 
 void FixFoamIntegrate::initial_integrate(int)
 {
+  if (lag.active != lags())
+    error->all(FLERR, "Fix {}: the drag has changed since the last run: run without 'pre no'",
+               style);
   out.begin_step();
   atime_start = update->atime;
   if (domain->box_change) list.state_has_changed();    // the box has moved since

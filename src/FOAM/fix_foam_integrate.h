@@ -156,6 +156,10 @@ class FixFoamIntegrate : public Fix {
     return Foam::with_dimension(dim, [&]<int D>() { return Foam::q_of<D>(variable, R); });
   }
   bool others_act() const;    // other fixes, on the forces
+  bool lags() const           // the scheme source takes v itself for l
+  {
+    return pair->neighbor_drag && evaluates_again();
+  }
   bool grows() const { return gas && gas->K > 0.0; }
   double natural_time() const;
 

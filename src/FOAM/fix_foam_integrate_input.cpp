@@ -154,6 +154,6 @@ void FixFoamIntegrate::init()
   pair->hub.gas_wanted = 0;
   if (gas) gas->tell(pair->hub);
   pair->hub.radii_change = gas != nullptr;
-  lag.active = pair->neighbor_drag && evaluates_again();    // the source takes v itself for l
+  lag.active = lags();
   if (pair->neighbor_drag) lag.columns.use(atom->nmax);
 }

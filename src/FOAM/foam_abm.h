@@ -22,15 +22,19 @@ template <class Fields> struct Predict {
   static constexpr const char *NAME = "foam: predict";
   Fields y;
   Predictor p;
-  bool first;    // attempt of this step
+  bool first;    // the step starts at the present y
   FOAM_FUNCTION void operator()(int i) const
   {
-    if (first) y.keep_start(i);
+    if (first)
+      y.keep_start(i);
+    else
+      y.rewind(i);
     y.each([&](const auto &field) {
       field.put(i, predict(field.start(i), field.rate(i), field.before(i), p));
     });
   }
 };
+template <class F> Predict(F, Predictor, bool) -> Predict<F>;
 
 // The error of a field is the distance of corrector and predictor
 
@@ -58,6 +62,7 @@ template <class Fields, class Rates, class Judge> struct Correct {
     judge(i, error, reach, all);
   }
 };
+template <class F, class R, class J> Correct(F, R, J, Work<F>, bool, double) -> Correct<F, R, J>;
 
 template <class System> auto attempt_abm(System &system, const Driver &driver, double h, bool first)
 {

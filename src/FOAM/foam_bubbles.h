@@ -65,6 +65,7 @@ enum Gather : unsigned {
   AREA = 16,       // sum of contact areas
   ENERGY = 32,     // each bubble's share of the energies
   ANY = 64,        // what a loop is told when it runs
+  TALLY = 128,     // energy and virial of each pair
   DRAG = CONTACTS | VSUM,
   DIAGNOSTICS = CONTACTS | FILM | AREA | ENERGY
 };

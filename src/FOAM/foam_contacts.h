@@ -22,30 +22,33 @@
 namespace Foam {
 
 // Every combination that occurs is a loop of its own, so what is off costs nothing: calls run<WHAT>() for the given
-// one, or run<ANY>() where energy or virial is wanted, too
+// one.  Where energy and virial are wanted, too, one loop does for all but the plain forces.
 
 template <class Run> void with_gathered(unsigned what, bool tallied, Run &&run)
 {
-  if (tallied) return run.template operator()<ANY>();
-  auto either = [&]<unsigned WHAT>() {    // with drag or without
-    if (what & VSUM)
+  const bool drag = (what & DRAG) == DRAG;
+  const unsigned beside = what & ~DRAG;
+  auto either = [&]<unsigned WHAT>() {
+    if (drag)
       run.template operator()<WHAT | DRAG>();
     else
       run.template operator()<WHAT>();
   };
-  switch (what & ~DRAG) {
+  if (what == DIAGNOSTICS && !tallied) return run.template operator()<DIAGNOSTICS>();
+  const bool known =
+      (drag || !(what & DRAG)) && (beside & FORCE) && !(beside & ~(FORCE | FILM | AREA));
+  if (!known) throw std::logic_error("Foam package: no loop gathers " + std::to_string(what));
+  if (what == FORCE && tallied) return run.template operator()<FORCE | TALLY>();
+  if (tallied) return run.template operator()<ANY | TALLY>();
+  switch (beside) {
     case FORCE:
       return either.template operator()<FORCE>();
     case FORCE | AREA:
       return either.template operator()<FORCE | AREA>();
     case FORCE | FILM:
       return either.template operator()<FORCE | FILM>();
-    case FORCE | FILM | AREA:
-      return either.template operator()<FORCE | FILM | AREA>();
-    case DIAGNOSTICS & ~DRAG:
-      return run.template operator()<DIAGNOSTICS>();
     default:
-      throw std::logic_error("Foam package: no loop gathers " + std::to_string(what));
+      return either.template operator()<FORCE | FILM | AREA>();
   }
 }
 
@@ -64,8 +67,7 @@ struct NoTally {
 //   row.for_each(visit)    calls visit(j, both) for each of its partners j; both: this is the only
 //                          time that the pair occurs, so both get their share
 //
-// Tally, if ON, is told the energy and the force of each pair.  That is asked for at output alone, so one loop, WHAT
-// = ANY, does for whatever is gathered beside.
+// Tally, if ON, is told the energy and the force of each pair.
 // A bubble's own sums are added to what is there, or, if ASSIGN, take its place.
 
 template <int D, unsigned WHAT, bool ASSIGN, class Law, class B, class List, class Tally>
@@ -76,11 +78,11 @@ struct ContactLoop {
   Coefficients coefficients;
   ContactSums sums;
   bool forces_add;    // even then
-  unsigned what;      // if WHAT is ANY
+  unsigned what;      // if WHAT has ANY
 
   FOAM_FUNCTION unsigned asked() const
   {
-    if constexpr (WHAT == ANY)
+    if constexpr (WHAT & ANY)
       return what;
     else
       return WHAT;

@@ -12,14 +12,21 @@
 
 #include "foam_gas.h"
 
+#include <iterator>
+
 // Per-bubble diagnostics: what compute foam/bubble shows
 
 namespace Foam {
 
+// a name for users behind each
+
 enum class Quantity { CONTACTS, AREA, FREE, VFILM, VLIQUID, RDOT, ESPRING, EDURIAN };
 
+inline constexpr const char *QUANTITIES[] = {"contacts", "area", "free",    "vfilm",
+                                             "vliquid",  "rdot", "espring", "edurian"};
+
 struct Quantities {
-  static constexpr int MOST = 8;
+  static constexpr int MOST = std::size(QUANTITIES);
   int count = 0;
   Quantity name[MOST];
 };

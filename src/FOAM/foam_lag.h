@@ -21,10 +21,12 @@ namespace LAMMPS_NS {
 // restart files.  Within a step see Foam::VelocityLag.
 
 class FoamLag : protected Pointers {
+  FoamColumnList &all_columns;
+  const unsigned TRAVELS, STAYS;    // kinds of columns
+
  public:
   FoamLag(LAMMPS *lmp, FoamColumnList &all, unsigned travels, unsigned stays)
-      : Pointers(lmp), columns(all, "lagged velocities", NCOLUMNS, travels),
-        v_start(all, "velocities of the start", 3, stays)
+      : Pointers(lmp), all_columns(all), TRAVELS(travels), STAYS(stays)
   {
   }
 
@@ -34,8 +36,9 @@ class FoamLag : protected Pointers {
   // l of the evaluation of the present velocities, and the velocities with which the last run ended
 
   enum { LAGX, LAGY, LAGZ, LASTX, LASTY, LASTZ, NCOLUMNS };
-  FoamColumns columns;
-  FoamColumns v_start;    // v_n, while LAMMPS' v is l
+  FoamColumns columns{all_columns, "lagged velocities", NCOLUMNS, TRAVELS};
+  FoamColumns v_start{all_columns, "velocities of the start", 3,
+                      STAYS};    // v_n, while LAMMPS' v is l
 
   template <class Space> Foam::VelocityLag view(Space &space)
   {

@@ -59,7 +59,7 @@ template <class Totals> class FoamReduce {
   }
 };
 
-// the same, once in a while
+// the same where nobody keeps a FoamReduce: several ranks make its type and operation each time
 
 template <class Totals> Totals foam_reduce(const Totals &mine, MPI_Comm comm)
 {

@@ -27,7 +27,7 @@ template <class Fields> struct FirstStage {
   Fields y;
   Work<Fields> work;
   double step;    // m_1 h
-  bool first;     // attempt of this step
+  bool first;     // the step starts at the present y
   FOAM_FUNCTION void operator()(int i) const
   {
     if (first)
@@ -41,6 +41,7 @@ template <class Fields> struct FirstStage {
     work.bubble[i] = 0.0;
   }
 };
+template <class F> FirstStage(F, Work<F>, double, bool) -> FirstStage<F>;
 
 template <class Fields, class Rates> struct NextStage {
   static constexpr const char *NAME = "foam: next stage";
@@ -72,6 +73,7 @@ template <class Fields, class Rates> struct NextStage {
     y.after_stage(i, f);
   }
 };
+template <class F, class R> NextStage(F, Work<F>, R, Chebyshev::Stage, double) -> NextStage<F, R>;
 
 template <class Fields, class Rates, class Judge> struct LastStage {
   static constexpr const char *NAME = "foam: last stage and judge";
@@ -89,6 +91,7 @@ template <class Fields, class Rates, class Judge> struct LastStage {
     judge(i, error, stage.work.bubble[i], all);
   }
 };
+template <class F, class R, class J> LastStage(NextStage<F, R>, J, double) -> LastStage<F, R, J>;
 
 struct RungeKuttaChebyshev {
   int stages_given = 0;    // 0: as many as a step needs

@@ -20,7 +20,8 @@
 // and know nothing else, neither bubbles nor the dimension.  In a functor, for bubble i:
 //
 //   y.each(visit)           visit(field) for each field
-//   y.keep_start(i)         the step starts here;  y.rewind(i): another attempt does
+//   MOST                    numbers of fields are below it
+//   y.keep_start(i)         the step starts at the present y;  y.rewind(i): at the one that is kept, again
 //   y.after_stage(i, f)     f are the rates of a stage, and the next one follows
 //   y.after_start(i)        the rates of the start have been evaluated anew
 //   y.reach(i)              how far bubble i is from where evaluations were prepared for
@@ -30,13 +31,14 @@
 //   field.value(i), field.put(i, value)
 //   field.start(i)          y_n
 //   field.rate(i), field.put_rate(i, value)    f_n
-//   field.before(i)         f_{n-1}, for schemes with a history; a direction, for the spectral radius
+//   field.before(i) = ...   f_{n-1}, for schemes with a history; a direction, for the spectral radius
 //   field.measure(i, d)     length of a change d of the present value
 //   field.unit()            change per unit of length
 //
 // rates(i, f) gives f of the state evaluated last, judge(i, error, reach, totals) adds a candidate to the totals
 // that decide on it.  A System puts them together on the host:
 //
+//   System::Fields, System::Totals             types of the fields and of the totals, which are Judge::Totals, too
 //   fields(), rates(), judge(), work()         Fields, Rates, Judge, Work
 //   evaluate(later)                            what rates() needs of the present y, at the start + later
 //   for_each(functor), totals<T>(functor)      over all bubbles of this rank
@@ -45,6 +47,8 @@
 //   moves_by_itself()       y changes between steps, too (a box that moves)
 //   others_act()            f depends on more than y and time, which others know
 //   lags()                  f depends on rates before it
+//
+// Functors are made of these by template argument deduction; clang before 17 needs the guides that follow them.
 
 namespace Foam {
 
@@ -70,6 +74,7 @@ template <class Fields> struct KeepStart {
   Fields y;
   FOAM_FUNCTION void operator()(int i) const { y.keep_start(i); }
 };
+template <class F> KeepStart(F) -> KeepStart<F>;
 
 }    // namespace Foam
 

@@ -63,6 +63,7 @@ template <class Fields> struct AnyDirection {
     return 2.0 * (turns - std::floor(turns)) - 1.0;
   }
 };
+template <class F> AnyDirection(F) -> AnyDirection<F>;
 
 // The rates of a state that has become unstable are those of the mode that made it so: they join the
 // direction, as large as it is
@@ -75,6 +76,7 @@ template <class Fields> struct LargestRate {
     y.each([&](const auto &field) { all.raise(std::fabs(field.rate(i) / field.unit())); });
   }
 };
+template <class F> LargestRate(F) -> LargestRate<F>;
 
 template <class Fields> struct JoinRates {
   static constexpr const char *NAME = "foam: join rates";
@@ -88,6 +90,7 @@ template <class Fields> struct JoinRates {
     });
   }
 };
+template <class F> JoinRates(F, double) -> JoinRates<F>;
 
 template <class Fields> struct Displace {
   static constexpr const char *NAME = "foam: displace";
@@ -98,6 +101,7 @@ template <class Fields> struct Displace {
     y.each([&](const auto &field) { field.put(i, field.start(i) + amount * field.before(i)); });
   }
 };
+template <class F> Displace(F, double) -> Displace<F>;
 
 template <class Fields, class Rates> struct TakeDirection {
   static constexpr const char *NAME = "foam: take direction";
@@ -118,9 +122,10 @@ template <class Fields, class Rates> struct TakeDirection {
     });
   }
 };
+template <class F, class R> TakeDirection(F, R, Work<F>, bool, double) -> TakeDirection<F, R>;
 
-// the rates of this evaluation, to compare others with that take the same as given; and how far they are from
-// those that are known
+// the rates of this evaluation, of all fields, to compare others with that take the same as given; and how far they
+// are from those that are known
 
 template <class Fields, class Rates> struct KeepRates {
   static constexpr const char *NAME = "foam: keep rates";
@@ -138,6 +143,7 @@ template <class Fields, class Rates> struct KeepRates {
     });
   }
 };
+template <class F, class R> KeepRates(F, R, Work<F>) -> KeepRates<F, R>;
 
 // the rates of the start, evaluated anew; and how far they are from those that were known
 
@@ -157,6 +163,7 @@ template <class Fields, class Rates> struct RenewStart {
     y.after_start(i);
   }
 };
+template <class F, class R> RenewStart(F, R) -> RenewStart<F, R>;
 
 class SpectralRadius {
  public:

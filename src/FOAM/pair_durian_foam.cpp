@@ -9,30 +9,21 @@
 
 #include "pair_durian_foam.h"
 
-#include "foam_input.h"
 #include "foam_half_list.h"
 #include "foam_host.h"
 #include "foam_laws.h"
 
 #include "atom.h"
 #include "comm.h"
-#include "compute.h"
 #include "domain.h"
-#include "error.h"
-#include "fix.h"
 #include "force.h"
-#include "input.h"
 #include "memory.h"
-#include "modify.h"
 #include "neigh_list.h"
-#include "neighbor.h"
-#include "update.h"
 
 #include <cmath>
 #include <algorithm>
 #include <cstring>
 #include <type_traits>
-#include <vector>
 
 using namespace LAMMPS_NS;
 
@@ -98,7 +89,7 @@ void PairDurianFoam::gather_in(const Law &chosen, unsigned what)
         space.bubbles(), half, chosen, coefficients, sums, true, what};
     for (int n = 0; n < list->inum; n++) functor(n, tally);
   };
-  using T = std::conditional_t<WHAT == Foam::ANY, Tally, Foam::NoTally>;
+  using T = std::conditional_t<(WHAT & Foam::TALLY) != 0, Tally, Foam::NoTally>;
   const T tally{this, nlocal, newton};
   newton ? loop.template operator()<true>(tally) : loop.template operator()<false>(tally);
 }

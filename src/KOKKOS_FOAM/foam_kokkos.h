@@ -146,7 +146,7 @@ template <class DeviceType> class FoamKokkos : protected Pointers {
                                      !DAT::ttransform_kkacc_1d_3::NEED_TRANSFORM;
   using Bubbles = std::conditional_t<AS_WITHOUT, Foam::HostBubbles, FoamKokkosBubbles<DeviceType>>;
 
-  // changes: masks of LAMMPS' arrays that the bodies may write to
+  // changes: masks of LAMMPS' arrays that functors may write to
 
   FoamKokkos(LAMMPS *lmp, uint64_t changes)
       : Pointers(lmp), written(changes), sums_there("foam:sums")

@@ -410,10 +410,11 @@ void PairDurianFoamKokkos<DeviceType>::gather_in(const Law &chosen, unsigned wha
 
   auto run = [&]<bool CHUNKS>() {
     const int n = CHUNKS ? (nlocal + chunk - 1) / chunk : nlocal;
-    using Tally = std::conditional_t<WHAT == Foam::ANY, KokkosTally<DeviceType>, Foam::NoTally>;
+    using Tally =
+        std::conditional_t<(WHAT & Foam::TALLY) != 0, KokkosTally<DeviceType>, Foam::NoTally>;
     using Loop = Foam::ContactLoop<D, WHAT, !CHUNKS, Law, B, Rows, Tally>;
     const Loop loop{space.bubbles(), rows, chosen, coefficients, sums, !clear, what};
-    if constexpr (WHAT == Foam::ANY) {
+    if constexpr (WHAT & Foam::TALLY) {
       const Tally tally{nullptr, eflag_atom != 0, vflag_atom != 0,
                         k_eatom.template view<DeviceType>(), k_vatom.template view<DeviceType>()};
       const auto all = space.template reduce<EnergyVirial>(

@@ -49,7 +49,7 @@ COLUMNS = {
     "contact records": "contact ages", "contact records on trial": "contact ages",
     "ages of contacts": "contact ages",
 }
-ELSEWHERE = {"low parts of places"}    # in use in single precision alone
+ELSEWHERE = {"residuals of places"}    # in use in single precision alone
 
 
 def test_all_columns_are_here():
