@@ -17,7 +17,7 @@ OWN = {"foam_kokkos": "space", "foam_travelling_kokkos": "space", "foam_rows_kok
 def floors():
     """Names of floors from the highest to the lowest, and the files on each, some with a * at their end."""
     table = re.search(r"## Floor plan.*?```\n(.*?)```", TEXT, re.S).group(1)
-    found = {}
+    found, floor = {}, ""
     for line in table.splitlines():
         floor = line[:14].strip() or floor    # or the same as above
         files = re.findall(r"\b(?:foamplugin|(?:foam|fix|pair|compute|lammps)_\w+\*?)", line)
