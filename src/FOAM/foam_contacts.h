@@ -94,7 +94,7 @@ struct ContactLoop {
     // of this functor: what the inner loop reads is taken out of it
 
     const unsigned wanted = asked();
-    auto gathers = [wanted](unsigned flags) {
+    auto gathers = [wanted](unsigned flags) FOAM_INLINE_LAMBDA {
       return (wanted & flags) != 0;
     };
     const auto row = list.row(n);
@@ -112,7 +112,7 @@ struct ContactLoop {
     double fi[3] = {}, vsum_i[3] = {};
     double contacts_i = 0.0, area_i = 0.0, film_i = 0.0, espring_i = 0.0, edurian_i = 0.0;
 
-    auto visit = [&](int j, auto both) {
+    auto visit = [&](int j, auto both) FOAM_INLINE_LAMBDA {
       const double Rj = b.radius(j);
       const double Rsum = Ri + Rj;
       const double del[3] = {xi[0] - b.x(j, 0), xi[1] - b.x(j, 1),
@@ -124,12 +124,11 @@ struct ContactLoop {
       const double overlap = Rsum - r;
       const double sigma = sigma0_i ? sigma0_i[b.type(j)] : sigma0;
 
-      // what there is to share, then the shares: j's only if the pair is not in a row of its own
+      // each takes its share, j only if the pair is not in a row of its own
 
-      [[maybe_unused]] double F_xyz[3] = {};
-      [[maybe_unused]] double A = 0.0, exchange = 0.0, half_spring = 0.0, durian = 0.0;
       if (gathers(FORCE)) {
         const double F = force_law.force(sigma * Rin, overlap, Rsum);
+        double F_xyz[3] = {};
         double F_over_r = 0.0;    // stays 0 at r = 0, where force and virial have no direction
         if (r > 0.0) {
           F_over_r = F / r;
@@ -139,42 +138,44 @@ struct ContactLoop {
         if constexpr (Tally::ON)
           tally.pair(i, j, both, force_law.energy(sigma * Rin, overlap, Rsum), F_over_r, del);
         for (int k = 0; k < D; k++) fi[k] += F_xyz[k];
-      }
-      [[maybe_unused]] bool bubbles = true;
-      if (gathers(CONTACTS | VSUM | FILM | AREA))
-        if (others) bubbles = member_i && s.members(j);
-      if (gathers(CONTACTS))
-        if (bubbles) contacts_i += 1.0;
-      if (gathers(VSUM))
-        if (bubbles)
-          for (int k = 0; k < D; k++) vsum_i[k] += b.v(j, k);
-      if (gathers(FILM | AREA))
-        if (bubbles) A = contact_area<D>(r, Ri, Rj);
-      if (gathers(AREA)) area_i += A;
-      if (gathers(FILM)) {
-        exchange = film_exchange(A, Ri, Rj);
-        film_i += exchange;
+        if (both)
+          for (int k = 0; k < D; k++) b.f(j, k) -= F_xyz[k];
       }
       if (gathers(ENERGY)) {
-        half_spring = 0.5 * force_law.energy(sigma * Rin, overlap, Rsum);
-        durian = durian_energy(sigma, overlap);
+        const double half_spring = 0.5 * force_law.energy(sigma * Rin, overlap, Rsum);
+        const double durian = durian_energy(sigma, overlap);
         espring_i += half_spring;
         edurian_i += durian;
+        if (both) {
+          s.espring[j] += half_spring;
+          s.edurian[j] += durian;
+        }
       }
 
-      if (!both) return;
-      if (gathers(FORCE))
-        for (int k = 0; k < D; k++) b.f(j, k) -= F_xyz[k];
-      if (gathers(CONTACTS))
-        if (bubbles) s.contacts[j] += 1.0;
+      // the rest is between bubbles
+
+      if (!gathers(CONTACTS | VSUM | FILM | AREA)) return;
+      if (others && !(member_i && s.members(j))) return;
+      if (gathers(CONTACTS)) {
+        contacts_i += 1.0;
+        if (both) s.contacts[j] += 1.0;
+      }
       if (gathers(VSUM))
-        if (bubbles)
-          for (int k = 0; k < D; k++) s.vsum[k][j] += b.v(i, k);
-      if (gathers(FILM)) s.film[j] -= exchange;
-      if (gathers(AREA)) s.area[j] += A;
-      if (gathers(ENERGY)) {
-        s.espring[j] += half_spring;
-        s.edurian[j] += durian;
+        for (int k = 0; k < D; k++) {
+          vsum_i[k] += b.v(j, k);
+          if (both) s.vsum[k][j] += b.v(i, k);
+        }
+      if (gathers(FILM | AREA)) {
+        const double A = contact_area<D>(r, Ri, Rj);
+        if (gathers(AREA)) {
+          area_i += A;
+          if (both) s.area[j] += A;
+        }
+        if (gathers(FILM)) {
+          const double exchange = film_exchange(A, Ri, Rj);
+          film_i += exchange;
+          if (both) s.film[j] -= exchange;
+        }
       }
     };
     if (Ri > 0.0) row.for_each(visit);    // the dead touch nobody

@@ -28,7 +28,7 @@ template <bool NEWTON> struct FoamHalfList {
     int i, size;
     const int *partners;
     int nlocal;
-    template <class Visit> void for_each(const Visit &visit) const
+    template <class Visit> FOAM_ALWAYS_INLINE void for_each(const Visit &visit) const
     {
       for (int m = 0; m < size; m++) {
         const int j = partners[m] & NEIGHMASK;

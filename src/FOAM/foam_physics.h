@@ -28,11 +28,13 @@
 #define FOAM_FUNCTION inline
 #endif
 
-// for the one loop that a compiler may take for too large
+// for the one loop that a compiler may take for too large, and for what is called in it
 
 #if defined(__GNUC__) && !defined(__CUDACC__) && !defined(__HIPCC__)
-#define FOAM_ALWAYS_INLINE __attribute__((always_inline)) inline
+#define FOAM_INLINE_LAMBDA __attribute__((always_inline))
+#define FOAM_ALWAYS_INLINE FOAM_INLINE_LAMBDA inline
 #else
+#define FOAM_INLINE_LAMBDA
 #define FOAM_ALWAYS_INLINE FOAM_FUNCTION
 #endif
 
@@ -89,7 +91,7 @@ template <int D> FOAM_FUNCTION double surface(double R)
 // has passed the centre of the smaller bubble, r^2 <= |R_i^2 - R_j^2|, h would
 // shrink again and turn imaginary: there it shows its full cross-section.
 
-FOAM_FUNCTION double lens_radius_squared(double r, double Ri, double Rj)
+FOAM_ALWAYS_INLINE double lens_radius_squared(double r, double Ri, double Rj)
 {
   const double smaller = Ri < Rj ? Ri : Rj;
   if (r * r <= std::fabs((Ri - Rj) * (Ri + Rj))) return smaller * smaller;
@@ -100,7 +102,7 @@ FOAM_FUNCTION double lens_radius_squared(double r, double Ri, double Rj)
 
 // contact area of two touching bubbles: 2 h (a length) or pi h^2
 
-template <int D> FOAM_FUNCTION double contact_area(double r, double Ri, double Rj)
+template <int D> FOAM_ALWAYS_INLINE double contact_area(double r, double Ri, double Rj)
 {
   const double h2 = lens_radius_squared(r, Ri, Rj);
   return D == 2 ? 2.0 * std::sqrt(h2) : PI * h2;

@@ -32,7 +32,7 @@ template <class DeviceType> struct FoamRows {
   struct Row {
     int i, size, shared;
     const int *partners;
-    template <class Visit> KOKKOS_INLINE_FUNCTION void for_each(const Visit &visit) const
+    template <class Visit> FOAM_ALWAYS_INLINE void for_each(const Visit &visit) const
     {
       for (int m = 0; m < size; m++) visit(partners[m], CHUNKS && m < shared);
     }

@@ -321,8 +321,8 @@ template <class DeviceType> struct KokkosTally {
 // LAMMPS has not cleared them.
 
 template <unsigned WHAT, class Loop, class Tally>
-KOKKOS_INLINE_FUNCTION void do_chunk(const Loop &loop, int c, int chunk, int nlocal, bool clear,
-                                     Tally &tally)
+FOAM_ALWAYS_INLINE void do_chunk(const Loop &loop, int c, int chunk, int nlocal, bool clear,
+                                 Tally &tally)
 {
   const int begin = c * chunk, end = begin + chunk < nlocal ? begin + chunk : nlocal;
   for (int i = begin; i < end; i++) {
@@ -361,8 +361,9 @@ template <int D, unsigned WHAT, bool CHUNKS, class Loop> struct SummedContacts {
   {
     Contacts<WHAT, CHUNKS, Loop>{loop, chunk, nlocal, clear}(n);
     const int begin = n * chunk, end = begin + chunk < nlocal ? begin + chunk : nlocal;
+    const Foam::Members member = loop.sums.members;
     for (int i = begin; i < end; i++)
-      if (loop.sums.members(i)) all.template add<D>(law, loop.b.radius(i), loop.sums.area[i]);
+      if (member(i)) all.template add<D>(law, loop.b.radius(i), loop.sums.area[i]);
   }
 };
 
