@@ -63,7 +63,7 @@ class FoamHost : protected Pointers {
   template <class Totals, class Functor>
   Foam::Sums<Totals> sums(int n, const Functor &functor) const    // of all ranks
   {
-    return {foam_reduce(totals<Totals>(n, functor), world)};
+    return {foam_sum(totals<Totals>(n, functor), world)};
   }
 
   int groupbit;    // of the bubbles

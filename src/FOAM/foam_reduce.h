@@ -68,6 +68,15 @@ template <class Totals> Totals foam_reduce(const Totals &mine, MPI_Comm comm)
   return ranks == 1 ? mine : FoamReduce<Totals>(comm)(mine);
 }
 
+// totals that have sums alone: MPI's own sum does, in each evaluation
+
+template <class Totals> Totals foam_sum(const Totals &mine, MPI_Comm comm)
+{
+  Totals all;
+  MPI_Allreduce(&mine, &all, sizeof(Totals) / sizeof(double), MPI_DOUBLE, MPI_SUM, comm);
+  return all;
+}
+
 }    // namespace LAMMPS_NS
 
 #endif

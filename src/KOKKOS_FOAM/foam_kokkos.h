@@ -221,7 +221,7 @@ template <class DeviceType> class FoamKokkos : protected Pointers {
   {
     int nprocs;
     MPI_Comm_size(world, &nprocs);
-    if (ON_HOST || nprocs > 1) return {foam_reduce(reduce<Totals>(n, functor), world)};
+    if (ON_HOST || nprocs > 1) return {foam_sum(reduce<Totals>(n, functor), world)};
     static_assert(sizeof(Totals) <= sizeof(double) * SLOT_SIZE);
     auto *const there = reinterpret_cast<Totals *>(sums_there.data() + SLOT_SIZE * Totals::SLOT);
     Kokkos::parallel_reduce(Functor::NAME, Kokkos::RangePolicy<DeviceType>(0, n),
