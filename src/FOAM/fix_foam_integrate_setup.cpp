@@ -304,7 +304,7 @@ double FixFoamIntegrate::count_bubbles()
 double FixFoamIntegrate::bubbles()
 {
   if (groupbit == Foam::GROUP_ALL) return atom->natoms;
-  const double mine = count_bubbles();
+  double mine = count_bubbles();
   double all;
   MPI_Allreduce(&mine, &all, 1, MPI_DOUBLE, MPI_SUM, world);
   return all;

@@ -70,7 +70,7 @@ template <class Totals> Totals foam_reduce(const Totals &mine, MPI_Comm comm)
 
 // totals that have sums alone: MPI's own sum does, in each evaluation
 
-template <class Totals> Totals foam_sum(const Totals &mine, MPI_Comm comm)
+template <class Totals> Totals foam_sum(Totals mine, MPI_Comm comm)
 {
   Totals all;
   MPI_Allreduce(&mine, &all, sizeof(Totals) / sizeof(double), MPI_DOUBLE, MPI_SUM, comm);
