@@ -60,7 +60,7 @@ class FixFoamCoarsen : public Fix {
     gas.area = space.column(pair->area, 0);
     using AddFreeSurface = Foam::AddFreeSurface<D, typename Space::Bubbles>;
     if (gas.through_liquid())
-      gas.use(pair->hub.free_surface_known
+      gas.use(pair->hub.free_surface_known && space.reads(pair->hub.free_surface)
                   ? pair->hub.free_surface
                   : space.template sums<Foam::FreeSurface>(
                         nlocal, AddFreeSurface{space.bubbles(), law, gas.area}));

@@ -66,6 +66,11 @@ class FoamHost : protected Pointers {
     return {foam_sum(totals<Totals>(n, functor), world)};
   }
 
+  template <class Totals> static bool reads(const Foam::Sums<Totals> &sums)    // from here
+  {
+    return !sums.on_device;
+  }
+
   int groupbit;    // of the bubbles
 
  private:
