@@ -145,7 +145,7 @@ void FixFoamIntegrate::remove_small()
   }
   pair->hub.population = {totals.bubbles, totals.radii * scale, totals.gas + totals.gas_removed,
                           totals.radius_max * scale};
-  totals.ahead.value += totals.radius_max * (scale - 1.0);
+  totals.ahead.value += pair->range() * totals.radius_max * (scale - 1.0);
 }
 
 /* ----------------------------------------------------------------------

@@ -255,6 +255,7 @@ template <class Space> Foam::State<typename Space::Bubbles> FixFoamIntegrate::st
   s.counts = gas != nullptr;
   s.grows = grows();
   s.variable = variable;
+  s.range = pair->range();
   s.q_unit = Foam::with_dimension(
       dim, [&]<int D>() { return Foam::slope_of_q<D>(variable, pair->hub.record.rin); });
   return s;

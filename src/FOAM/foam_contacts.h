@@ -100,6 +100,7 @@ struct ContactLoop {
     const auto row = list.row(n);
     const ContactSums s = sums;
     const Law force_law = law;
+    const double range = force_law.range();
     const double Rin = coefficients.Rin;
     const int i = row.i;
     const double Ri = b.radius(i);
@@ -118,16 +119,17 @@ struct ContactLoop {
       const double del[3] = {xi[0] - b.x(j, 0), xi[1] - b.x(j, 1),
                              D == 3 ? xi[2] - b.x(j, 2) : 0.0};
       const double rsq = del[0] * del[0] + del[1] * del[1] + del[2] * del[2];
-      if (!(rsq < Rsum * Rsum) || !(Rj > 0.0)) return;
+      const double reach = range * Rsum;
+      if (!(rsq < reach * reach) || !(Rj > 0.0)) return;
 
       const double r = std::sqrt(rsq);
-      const double overlap = Rsum - r;
+      const double overlap = Rsum - r;    // negative beyond contact
       const double sigma = sigma0_i ? sigma0_i[b.type(j)] : sigma0;
 
       // each takes its share, j only if the pair is not in a row of its own
 
       if (gathers(FORCE)) {
-        const double F = force_law.force(sigma * Rin, overlap, Rsum);
+        const double F = force_law.force(sigma * Rin, overlap, Ri, Rj);
         double F_xyz[3] = {};
         double F_over_r = 0.0;    // stays 0 at r = 0, where force and virial have no direction
         if (r > 0.0) {
@@ -136,14 +138,14 @@ struct ContactLoop {
         } else
           F_xyz[0] = coincident_sign(b.tag(i), b.tag(j)) * F;
         if constexpr (Tally::ON)
-          tally.pair(i, j, both, force_law.energy(sigma * Rin, overlap, Rsum), F_over_r, del);
+          tally.pair(i, j, both, force_law.energy(sigma * Rin, overlap, Ri, Rj), F_over_r, del);
         for (int k = 0; k < D; k++) fi[k] += F_xyz[k];
         if (both)
           for (int k = 0; k < D; k++) b.f(j, k) -= F_xyz[k];
       }
       if (gathers(ENERGY)) {
-        const double half_spring = 0.5 * force_law.energy(sigma * Rin, overlap, Rsum);
-        const double durian = durian_energy(sigma, overlap);
+        const double half_spring = 0.5 * force_law.energy(sigma * Rin, overlap, Ri, Rj);
+        const double durian = !Law::BEYOND || overlap > 0.0 ? durian_energy(sigma, overlap) : 0.0;
         espring_i += half_spring;
         edurian_i += durian;
         if (both) {
@@ -152,8 +154,9 @@ struct ContactLoop {
         }
       }
 
-      // the rest is between bubbles
+      // the rest is between bubbles in contact
 
+      if (Law::BEYOND && !(overlap > 0.0)) return;
       if (!gathers(CONTACTS | VSUM | FILM | AREA)) return;
       if (others && !(member_i && s.members(j))) return;
       if (gathers(CONTACTS)) {

@@ -19,20 +19,20 @@ namespace Foam {
 // ALPHA = 2 is the spring, 5/2 like Hertz' contact [O'Hern, Silbert, Liu, Nagel, Phys. Rev. E 68, 011306
 // (2003), eq. 1; for emulsions Lacasse et al., Phys. Rev. Lett. 76, 3448 (1996)].
 
-struct PowerLaw {
+struct PowerLaw : ContactLaw {
   static constexpr const char *NAME = "power";
   static constexpr std::array<LawParameter, 1> PARAMETERS{
       {{"ALPHA", 1.0}}};    // no force at contact
   double alpha;
   explicit PowerLaw(const double *parameters) : alpha(parameters[0]) {}
 
-  FOAM_FUNCTION double force(double stiffness, double overlap, double Rsum) const
+  FOAM_FUNCTION double force(double stiffness, double overlap, double Ri, double Rj) const
   {
-    return stiffness * std::pow(overlap / Rsum, alpha - 1.0);
+    return stiffness * std::pow(overlap / (Ri + Rj), alpha - 1.0);
   }
-  FOAM_FUNCTION double energy(double stiffness, double overlap, double Rsum) const
+  FOAM_FUNCTION double energy(double stiffness, double overlap, double Ri, double Rj) const
   {
-    return stiffness * Rsum * std::pow(overlap / Rsum, alpha) / alpha;
+    return stiffness * (Ri + Rj) * std::pow(overlap / (Ri + Rj), alpha) / alpha;
   }
 };
 

@@ -17,18 +17,18 @@ namespace Foam {
 // Overlap spring [D95]: magnitude of the repulsion and its potential, with stiffness = sigma0 <R_in>,
 //   F = stiffness overlap / (R_i + R_j),  U = stiffness overlap^2 / (2 (R_i + R_j))
 
-struct SpringLaw {
+struct SpringLaw : ContactLaw {
   static constexpr const char *NAME = "spring";
   static constexpr std::array<LawParameter, 0> PARAMETERS{};
   explicit SpringLaw(const double *) {}
 
-  FOAM_FUNCTION double force(double stiffness, double overlap, double Rsum) const
+  FOAM_FUNCTION double force(double stiffness, double overlap, double Ri, double Rj) const
   {
-    return stiffness * overlap / Rsum;
+    return stiffness * overlap / (Ri + Rj);
   }
-  FOAM_FUNCTION double energy(double stiffness, double overlap, double Rsum) const
+  FOAM_FUNCTION double energy(double stiffness, double overlap, double Ri, double Rj) const
   {
-    return 0.5 * stiffness * overlap * overlap / Rsum;
+    return 0.5 * stiffness * overlap * overlap / (Ri + Rj);
   }
 };
 

@@ -12,6 +12,8 @@
 
 #include "foam_law_power.h"
 #include "foam_law_spring.h"
+#include "foam_law_sticky.h"
+#include "foam_law_surface.h"
 
 #include <string>
 #include <tuple>
@@ -21,7 +23,7 @@ namespace Foam {
 
 // All laws, the first is the default.  Restart files have its place in the list: new ones come last.
 
-using Laws = std::tuple<SpringLaw, PowerLaw>;
+using Laws = std::tuple<SpringLaw, PowerLaw, SurfaceLaw, StickyLaw>;
 inline constexpr int NLAWS = std::tuple_size_v<Laws>;
 
 // visit(law) with the law that was chosen

@@ -58,6 +58,7 @@ template <class B> struct State {
   bool grows = false;     // gas is exchanged, radii change
   Variable variable = Variable::VOLUME;
   double q_unit = 1.0;    // dq / dR at the mean radius
+  double range = 1.0;     // of forces, in radii
 };
 
 template <int D, class B> FOAM_FUNCTION void put_gas(const State<B> &s, int i, double q)
@@ -150,7 +151,10 @@ template <int D, class B> struct Fields : State<B> {
   }
 
  private:
-  FOAM_FUNCTION double growth(double dR) const { return this->counts && dR > 0.0 ? dR : 0.0; }
+  FOAM_FUNCTION double growth(double dR) const
+  {
+    return this->counts && dR > 0.0 ? this->range * dR : 0.0;
+  }
 };
 
 // Everything that has to be known of a candidate, over all ranks at once: its error, whether

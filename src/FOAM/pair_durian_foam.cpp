@@ -16,6 +16,7 @@
 #include "atom.h"
 #include "comm.h"
 #include "domain.h"
+#include "error.h"
 #include "force.h"
 #include "memory.h"
 #include "neigh_list.h"
@@ -100,7 +101,7 @@ double PairDurianFoam::init_one(int i, int j)
 {
   if (setflag[i][j] == 0) sigma0[i][j] = mix_energy(sigma0[i][i], sigma0[j][j], 1.0, 1.0);
   sigma0[j][i] = sigma0[i][j];
-  return 2.0 * cutoff_radius;
+  return 2.0 * range() * cutoff_radius;
 }
 
 double PairDurianFoam::stiffest() const
@@ -108,7 +109,28 @@ double PairDurianFoam::stiffest() const
   double most = 0.0;
   for (int i = 1; i <= atom->ntypes; i++)
     for (int j = i; j <= atom->ntypes; j++) most = MAX(most, sigma0[i][j]);
+  Foam::with_law(law, [&](const auto &chosen) { most = chosen.spring(most); });
   return most;
+}
+
+// the law acts at r < range (R_i + R_j)
+
+double PairDurianFoam::range() const
+{
+  double factor = 1.0;
+  Foam::with_law(law, [&](const auto &chosen) { factor = chosen.range(); });
+  return factor;
+}
+
+void PairDurianFoam::init_style()
+{
+  Foam::with_law(law, [&](const auto &chosen) {
+    if (chosen.ONLY_3D && domain->dimension == 2)
+      error->all(FLERR,
+                 "Pair style durian/foam: law {} is one of bubbles in 3D, but dimension is 2",
+                 chosen.NAME);
+  });
+  PairFoam::init_style();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -117,13 +139,14 @@ double PairDurianFoam::single(int i, int j, int itype, int jtype, double rsq, do
                               double &fforce)
 {
   fforce = 0.0;
-  const double Ri = atom->radius[i], Rj = atom->radius[j], Rsum = Ri + Rj;
-  if (!(rsq < Rsum * Rsum) || !(Ri > 0.0) || !(Rj > 0.0)) return 0.0;
+  const double Ri = atom->radius[i], Rj = atom->radius[j], reach = range() * (Ri + Rj);
+  if (!(rsq < reach * reach) || !(Ri > 0.0) || !(Rj > 0.0)) return 0.0;
   const double r = std::sqrt(rsq), stiffness = sigma0[itype][jtype] * hub.record.rin;
+  const double overlap = Ri + Rj - r;
   double energy = 0.0;
   Foam::with_law(law, [&](const auto &chosen) {
-    if (r > 0.0) fforce = chosen.force(stiffness, Rsum - r, Rsum) / r;
-    energy = chosen.energy(stiffness, Rsum - r, Rsum);
+    if (r > 0.0) fforce = chosen.force(stiffness, overlap, Ri, Rj) / r;
+    energy = chosen.energy(stiffness, overlap, Ri, Rj);
   });
   return energy;
 }

@@ -40,6 +40,8 @@ class PairDurianFoam : public PairFoam {
   double single(int, int, int, int, double, double, double, double &) override;
   void *extract(const char *, int &) override;
   double stiffest() const override;
+  double range() const override;
+  void init_style() override;
 
  protected:
   double **sigma0;    // per pair of types

@@ -53,9 +53,10 @@ void PairDurianFoam::settings(int narg, char **arg)
                      law.index = v.one_of(Foam::names_of_laws());
                      Foam::with_law(law, [&](const auto &chosen) {
                        auto number = law.parameters.begin();
-                       for (const auto &[name, above] : chosen.PARAMETERS)
-                         *number++ = input.argument(fmt::format("{} of law {}", name, chosen.NAME))
-                                         .number(FoamInput::ABOVE, above);
+                       for (const auto &[name, limit, or_equal] : chosen.PARAMETERS)
+                         *number++ =
+                             input.argument(fmt::format("{} of law {}", name, chosen.NAME))
+                                 .number(or_equal ? FoamInput::AT_LEAST : FoamInput::ABOVE, limit);
                      });
                    }},
                   {"drag",
@@ -179,7 +180,7 @@ void PairDurianFoam::read_restart_settings(FILE *fp)
   Foam::with_law(law, [&](const auto &chosen) {
     law_known = true;
     for (size_t n = 0; n < chosen.PARAMETERS.size(); n++)
-      if (!(law.parameters[n] > chosen.PARAMETERS[n].above) || !std::isfinite(law.parameters[n]))
+      if (!chosen.PARAMETERS[n].allows(law.parameters[n]) || !std::isfinite(law.parameters[n]))
         law_known = false;
   });
   if (!law_known)

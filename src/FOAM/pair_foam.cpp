@@ -127,7 +127,11 @@ void PairFoam::init_style()
   check_images(largest);
 
   if (domain->dimension == 2) fit_thickness();
-  neighbor->add_request(this, list_flags);
+
+  // LAMMPS' lists of pairs by size hold those closer than R_i + R_j and the skin: for forces that reach further, those
+  // by the cutoff of the types do
+
+  neighbor->add_request(this, range() > 1.0 ? list_flags & ~NeighConst::REQ_SIZE : list_flags);
 }
 
 // LAMMPS commands that run beside a foam and give wrong numbers without a word of their own

@@ -38,6 +38,7 @@ class PairFoam : public Pair {
   void refresh();               // cutoffs, ghosts and bins for bubbles that have grown
   bool outgrown(double R) const { return R > cutoff_radius; }    // have bubbles of this radius?
   virtual double stiffest() const = 0;                           // largest spring constant
+  virtual double range() const { return 1.0; }    // forces act at r < range (R_i + R_j)
 
   // drag, see foam_drag.h
 

@@ -58,6 +58,23 @@ template <class DeviceType> struct ListedPairs {
   typename FoamRows<DeviceType>::Numbers filled;    // single pairs of a row so far
   int nlocal, chunk;
 
+  // lists by the cutoff of types have more pairs than come near: those within range (R_i + R_j) + skin are taken; a
+  // range of 0 takes all
+
+  typename FoamKokkos<DeviceType>::Bubbles b;
+  double range, skin;
+  KOKKOS_INLINE_FUNCTION bool near(int i, int j) const
+  {
+    if (range == 0.0) return true;
+    const double reach = range * (b.radius(i) + b.radius(j)) + skin;
+    double square = 0.0;
+    for (int k = 0; k < 3; k++) {
+      const double d = b.x(i, k) - b.x(j, k);
+      square += d * d;
+    }
+    return square < reach * reach;
+  }
+
   struct Chunk {
     int begin, end;
     KOKKOS_INLINE_FUNCTION bool has(int j) const { return j >= begin && j < end; }
@@ -79,6 +96,7 @@ template <class DeviceType> struct CountPairs : ListedPairs<DeviceType> {
     int shared = 0, single = 0;
     for (int m = 0; m < size; m++) {
       const int j = this->neighbors(i, m) & NEIGHMASK;
+      if (!this->near(i, j)) continue;
       if (mine.has(j))
         shared++;
       else {
@@ -113,6 +131,7 @@ template <class DeviceType> struct FillRows : ListedPairs<DeviceType> {
     int shared = 0;
     for (int m = 0; m < size; m++) {
       const int j = this->neighbors(i, m) & NEIGHMASK;
+      if (!this->near(i, j)) continue;
       if (mine.has(j))
         this->rows.partner(this->rows.first(i) + shared++) = j;
       else {

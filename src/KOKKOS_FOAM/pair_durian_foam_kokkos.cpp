@@ -141,7 +141,10 @@ template <class DeviceType> void PairDurianFoamKokkos<DeviceType>::make_rows()
       rows,
       typename FoamRows<DeviceType>::Numbers("durian/foam:filled", nlocal),
       nlocal,
-      chunk};
+      chunk,
+      space.bubbles(),
+      range() > 1.0 ? range() : 0.0,
+      neighbor->skin};
 
   space.for_each(list->inum, FoamMakeRows::CountPairs<DeviceType>{pairs});
   int total = 0;

@@ -213,8 +213,8 @@ TEST(Lens, SameForBothPartners)
 TEST(Spring, ClosedForm)
 {
   // sigma0 <R_in> = 2, R_i + R_j = 3, overlap 0.6
-  EXPECT_DOUBLE_EQ(SPRING.force(2.0, 0.6, 3.0), 0.4);
-  EXPECT_DOUBLE_EQ(SPRING.energy(2.0, 0.6, 3.0), 0.12);
+  EXPECT_DOUBLE_EQ(SPRING.force(2.0, 0.6, 1.0, 2.0), 0.4);
+  EXPECT_DOUBLE_EQ(SPRING.energy(2.0, 0.6, 1.0, 2.0), 0.12);
   EXPECT_DOUBLE_EQ(durian_energy(2.0, 0.6), 0.36);    // for each of the two
 }
 
@@ -225,20 +225,21 @@ TEST(Spring, ForceIsMinusDerivativeOfEnergy)
   for (int n = 0; n < 1000; n++) {
     const double Rsum = samples.uniform(0.5, 3.0), r = samples.uniform(0.0, 0.99 * Rsum);
     const double step = std::ldexp(1.0, -10);
-    const double slope = (SPRING.energy(1.5, Rsum - (r + step), Rsum) -
-                          SPRING.energy(1.5, Rsum - (r - step), Rsum)) /
+    const double Ri = 0.3 * Rsum, Rj = Rsum - Ri;
+    const double slope = (SPRING.energy(1.5, Rsum - (r + step), Ri, Rj) -
+                          SPRING.energy(1.5, Rsum - (r - step), Ri, Rj)) /
                          (2.0 * step);
-    EXPECT_NEAR(SPRING.force(1.5, Rsum - r, Rsum), -slope, 1.0e-11);
+    EXPECT_NEAR(SPRING.force(1.5, Rsum - r, Ri, Rj), -slope, 1.0e-11);
   }
 }
 
 TEST(Spring, LimitsAreFinite)
 {
-  EXPECT_EQ(SPRING.force(1.0, 0.0, 2.0), 0.0);    // just touching
-  EXPECT_EQ(SPRING.energy(1.0, 0.0, 2.0), 0.0);
-  EXPECT_EQ(SPRING.force(1.0, 2.0, 2.0), 1.0);    // coincident: sigma0 <R_in>
-  EXPECT_EQ(SPRING.energy(1.0, 2.0, 2.0), 1.0);
-  EXPECT_DOUBLE_EQ(SPRING.force(1.0, 1.0e6 + 1.0, 1.0e6 + 1.0), 1.0);
+  EXPECT_EQ(SPRING.force(1.0, 0.0, 1.0, 1.0), 0.0);    // just touching
+  EXPECT_EQ(SPRING.energy(1.0, 0.0, 1.0, 1.0), 0.0);
+  EXPECT_EQ(SPRING.force(1.0, 2.0, 1.0, 1.0), 1.0);    // coincident: sigma0 <R_in>
+  EXPECT_EQ(SPRING.energy(1.0, 2.0, 1.0, 1.0), 1.0);
+  EXPECT_DOUBLE_EQ(SPRING.force(1.0, 1.0e6 + 1.0, 1.0e6, 1.0), 1.0);
 }
 
 TEST(Spring, CoincidentBubblesPartInOppositeDirections)
