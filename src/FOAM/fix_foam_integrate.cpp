@@ -182,6 +182,35 @@ void FixFoamIntegrate::take_listed()
   take_listed_in(space);
 }
 
+void FixFoamIntegrate::solve_drag()
+{
+  FoamHost space(lmp, groupbit);
+  solve_drag_in(space);
+}
+
+// Velocities whose error moves bubbles by a small part of the tolerance of a step, and is small beside the change of
+// velocities from which the spectral radius is estimated
+
+double FixFoamIntegrate::error_of_drag() const
+{
+  constexpr double PART = 0.02;
+  const double length = pair->hub.record.rin,
+               h = MIN(driver.h > 0.0 ? driver.h : update->dt, largest_step());
+  return MIN(PART * driver.control.tolerance * length / h,
+             PART * displacement() * length / natural_time());
+}
+
+void FixFoamIntegrate::count_solution(int found)
+{
+  if (found < 0)
+    error->all(
+        FLERR,
+        "Fix {}: the velocities of bubbles that drag each other were not found: mu_c = {} is too "
+        "large beside mu0 = {}",
+        style, pair->mu_c, pair->mu0);
+  products += found;
+}
+
 double FixFoamIntegrate::largest_radius()
 {
   FoamHost space(lmp, groupbit);
@@ -229,6 +258,7 @@ void FixFoamIntegrate::evaluate(double later)
   update->atime = atime_start + later;
   update->atimestep = update->ntimestep;
   compute_forces(0, 0);
+  solve_drag();
   evaluations++;
   for (FoamFollower *one : followers) one->attempted(later);
 }
@@ -242,6 +272,7 @@ void FixFoamIntegrate::final_integrate()
   for (FoamFollower *one : followers) one->accepted(driver.h_last, out.due(this));
   if (!evaluates_again()) return;
   evaluations++;
+  solve_drag();
   take_rates(has_history() && !history_at_accept());
   lag.known = lag.active;
 }

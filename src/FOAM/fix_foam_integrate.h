@@ -12,6 +12,7 @@
 
 #include "fix.h"
 #include "fix_foam_coarsen.h"
+#include "foam_contact_drag.h"
 #include "foam_driver.h"
 #include "foam_history.h"
 #include "foam_host.h"
@@ -119,6 +120,9 @@ class FixFoamIntegrate : public Fix {
   enum { Q, QDOT, VX_BEFORE, VY_BEFORE, VZ_BEFORE, QDOT_BEFORE, NCOLUMNS };
   FoamColumns columns{all_columns, "gas and rates", NCOLUMNS, TRAVELS};
 
+  FoamColumns solved{all_columns, "velocities with drag between bubbles", 3,
+                     TRAVELS};    // if it is on
+
   FoamLag lag{lmp, all_columns, TRAVELS, STAYS};    // neighbor drag only
 
   // what LAMMPS' own coordinates lack of these in double precision, if it keeps less: see
@@ -132,15 +136,20 @@ class FixFoamIntegrate : public Fix {
   FoamColumns start{all_columns, "starts", NSTART, STAYS};    // y_n, and the radii in it
   enum { XLISTED, YLISTED, ZLISTED, RLISTED, NLISTED };
   FoamColumns listed{all_columns, "listed places", NLISTED, STAYS};
+  FoamColumns residual{all_columns, "residuals of the drag", 3, STAYS};
   FoamColumns work{all_columns, "work of the scheme", 5, STAYS};    // within a step
 
   // ---- what a scheme does
 
   virtual Foam::Judgement candidate(double step, bool first) = 0;    // of this rank
-  virtual bool evaluates_again() const { return true; }        // or has the next rates in work
-  virtual bool has_history() const { return true; }            // needs f_{n-1}
-  virtual bool uses_work() const { return false; }             // uses work
-  virtual double stable_step() const { return INFINITY; }      // no step may be longer
+  virtual bool evaluates_again() const { return true; }      // or has the next rates in work
+  virtual bool has_history() const { return true; }          // needs f_{n-1}
+  virtual bool uses_work() const { return false; }           // uses work
+  virtual double stable_step() const { return INFINITY; }    // no step may be longer
+  virtual double displacement() const
+  {
+    return INFINITY;
+  }    // by which it asks for changes of rates, in <R_in>
   virtual bool suffers_from_drift() const { return false; }    // so it is removed unless kept
 
   // ---- what a scheme uses
@@ -161,6 +170,7 @@ class FixFoamIntegrate : public Fix {
     return pair->neighbor_drag && evaluates_again();
   }
   bool grows() const { return gas && gas->K > 0.0; }
+  double error_of_drag() const;
   double natural_time() const;
 
   // ---- the equations and where their numbers are
@@ -182,6 +192,7 @@ class FixFoamIntegrate : public Fix {
   virtual double largest_radius();    // on this rank
   virtual double count_bubbles();     // of this rank
   virtual void compute_forces(int eflag, int vflag);
+  virtual void solve_drag();    // where bubbles in contact drag each other; after each evaluation
 
   // set-up works on the host: bubbles there are up to date after the first, and on the device
   // again after the second
@@ -197,6 +208,9 @@ class FixFoamIntegrate : public Fix {
   template <class Space> void take_listed_in(Space &);
   template <class Space> double largest_radius_in(Space &);
   template <class Space> double count_bubbles_in(Space &);
+  template <class Space> void solve_drag_in(Space &);
+  template <int D, class Space>
+  Foam::Drag<D, typename Space::Bubbles> drag_without_contacts(Space &);
 
  private:
   bool ghosts_checked = false;    // their radii are communicated
@@ -224,6 +238,8 @@ class FixFoamIntegrate : public Fix {
   void remove_small();
   bool history_at_accept() const;
   void set_timestep(double);
+  double products = 0.0;    // with the matrix of the drag, in all evaluations
+  void count_solution(int);
 
   // for the driver
 
@@ -261,6 +277,46 @@ template <class Space> Foam::State<typename Space::Bubbles> FixFoamIntegrate::st
   return s;
 }
 
+template <int D, class Space>
+Foam::Drag<D, typename Space::Bubbles> FixFoamIntegrate::drag_without_contacts(Space &space)
+{
+  const Foam::ContactSums sums = pair->contact_sums(space);
+  Foam::Drag<D, typename Space::Bubbles> drag{space.bubbles(), pair->mu0};
+  if (pair->neighbor_drag)
+    drag.ambient = {sums.contacts, {sums.vsum[0], sums.vsum[1], sums.vsum[2]}};
+  return drag;
+}
+
+template <class Space> void FixFoamIntegrate::solve_drag_in(Space &space)
+{
+  using B = typename Space::Bubbles;
+  if (!(pair->mu_c > 0.0)) return;
+  auto columns = [&](FoamColumns &from, double **to) {
+    from.use(atom->nmax);
+    for (int k = 0; k < 3; k++) to[k] = space.column(from, k);
+  };
+  const int found = Foam::with_dimension(dim, [&]<int D>() {
+    pair->make_room(Foam::DRAG | Foam::GIVEN);
+    const Foam::ContactSums sums = pair->contact_sums(space);
+    Foam::DragSystem<D, B> s{drag_without_contacts<D>(space),
+                             pair->mu_c,
+                             sums.contacts,
+                             {sums.vsum[0], sums.vsum[1], sums.vsum[2]},
+                             {},
+                             {},
+                             {}};
+    columns(solved, s.v);
+    columns(residual, s.r);
+    columns(pair->given, s.p);
+    return Foam::solve_contact_drag(
+        s, space, atom->nlocal, error_of_drag(), [&] { pair->gather_given(); },
+        [&](const auto &functor) {
+          return foam_sum(space.template totals<Foam::DragTotals>(atom->nlocal, functor), world);
+        });
+  });
+  count_solution(found);
+}
+
 // Averaging over neighbors leaves a common velocity as it is, so with neighbor drag the foam
 // as a whole may drift; the remedy goes on in the frame in which it is at rest.
 
@@ -268,10 +324,9 @@ template <int D, class Space>
 Foam::Rates<D, typename Space::Bubbles> FixFoamIntegrate::rates(Space &space)
 {
   using B = typename Space::Bubbles;
-  const Foam::ContactSums sums = pair->contact_sums(space);
-  Foam::Drag<D, B> drag{space.bubbles(), pair->mu0};
-  if (pair->neighbor_drag)
-    drag.ambient = {sums.contacts, {sums.vsum[0], sums.vsum[1], sums.vsum[2]}};
+  Foam::Drag<D, B> drag = drag_without_contacts<D>(space);
+  if (pair->mu_c > 0.0)
+    for (int k = 0; k < D; k++) drag.solved[k] = space.column(solved, k);
   if (drift_removed) {
     drag.drift = space.template sums<Foam::DriftTotals>(atom->nlocal, Foam::AddDrift<D, B>{drag});
     drag.drift_removed = true;

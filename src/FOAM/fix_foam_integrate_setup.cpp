@@ -180,8 +180,10 @@ void FixFoamIntegrate::setup(int)
     if (n) f_so_far.assign(&atom->f[0][0], &atom->f[0][0] + n);
     if (!lag_given) give_lag();
     evaluate(0.0);
-  } else
+  } else {
+    solve_drag();
     evaluations++;
+  }
   lag_given = false;
 
   // The history of steps is good for as long as the state is the one that it led to: if a

@@ -36,6 +36,10 @@ class FixFoamRKC : public FixFoamIntegrate {
   bool has_history() const override { return false; }
   bool uses_work() const override { return true; }
   double stable_step() const override { return scheme.stable_step(); }
+  double displacement() const override
+  {
+    return scheme.spectral.given > 0.0 ? INFINITY : scheme.spectral.displaced;
+  }
   bool suffers_from_drift() const override { return true; }    // which grows from stage to stage
   std::vector<double *> progress() override;
 

@@ -66,8 +66,13 @@ enum Gather : unsigned {
   ENERGY = 32,     // each bubble's share of the energies
   ANY = 64,        // what a loop is told when it runs
   TALLY = 128,     // energy and virial of each pair
+  GIVEN = 256,     // VSUM of given velocities instead of LAMMPS'
   DRAG = CONTACTS | VSUM,
   DIAGNOSTICS = CONTACTS | FILM | AREA | ENERGY
+};
+
+struct Given {    // columns of velocities
+  double *v[3];
 };
 
 // Sums over the contacts of each bubble, as columns.  Contacts are those with other bubbles: a particle
@@ -75,6 +80,7 @@ enum Gather : unsigned {
 
 struct ContactSums {
   double *contacts, *vsum[3];
+  const double *given[3];       // velocities, for GIVEN; of ghosts, too
   double *area;                 // sum of A_ij
   double *film;                 // sum of A_ij (1/R_j - 1/R_i)
   double *espring, *edurian;    // half of the springs' energies; energy of [L20]

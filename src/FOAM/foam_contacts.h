@@ -35,6 +35,7 @@ template <class Run> void with_gathered(unsigned what, bool tallied, Run &&run)
       run.template operator()<WHAT>();
   };
   if (what == DIAGNOSTICS && !tallied) return run.template operator()<DIAGNOSTICS>();
+  if (what == (DRAG | GIVEN)) return run.template operator()<DRAG | GIVEN>();
   const bool known =
       (drag || !(what & DRAG)) && (beside & FORCE) && !(beside & ~(FORCE | FILM | AREA));
   if (!known) throw std::logic_error("Foam package: no loop gathers " + std::to_string(what));
@@ -86,6 +87,14 @@ struct ContactLoop {
       return what;
     else
       return WHAT;
+  }
+
+  FOAM_ALWAYS_INLINE double velocity(const ContactSums &s, int i, int k) const
+  {
+    if constexpr (WHAT & GIVEN)
+      return s.given[k][i];
+    else
+      return b.v(i, k);
   }
 
   FOAM_ALWAYS_INLINE void operator()(int n, Tally &tally) const
@@ -165,8 +174,8 @@ struct ContactLoop {
       }
       if (gathers(VSUM))
         for (int k = 0; k < D; k++) {
-          vsum_i[k] += b.v(j, k);
-          if (both) s.vsum[k][j] += b.v(i, k);
+          vsum_i[k] += velocity(s, j, k);
+          if (both) s.vsum[k][j] += velocity(s, i, k);
         }
       if (gathers(FILM | AREA)) {
         const double A = contact_area<D>(r, Ri, Rj);

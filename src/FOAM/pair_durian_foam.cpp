@@ -59,7 +59,7 @@ void PairDurianFoam::gather(unsigned what)
     });
   });
 
-  gathered = what & ~Foam::FORCE;
+  gathered = what & ~(Foam::FORCE | Foam::GIVEN);
   if (force->newton_pair && gathered) comm->reverse_comm(this);
 }
 

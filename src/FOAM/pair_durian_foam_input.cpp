@@ -25,7 +25,7 @@
 using namespace LAMMPS_NS;
 
 // numbers of a restart file
-static constexpr int SETTINGS = 11 + Foam::LawChoice::MOST;
+static constexpr int SETTINGS = 12 + Foam::LawChoice::MOST;
 
 void PairDurianFoam::allocate()
 {
@@ -46,31 +46,35 @@ void PairDurianFoam::settings(int narg, char **arg)
   mu0 = input.argument("mu0").number(FoamInput::ABOVE, 0.0);
 
   neighbor_drag = false;
+  mu_c = 0.0;
   headroom = 1.2;
   law = {};
-  input.keywords({{"law",
-                   [&](const Value &v) {
-                     law.index = v.one_of(Foam::names_of_laws());
-                     Foam::with_law(law, [&](const auto &chosen) {
-                       auto number = law.parameters.begin();
-                       for (const auto &[name, limit, or_equal] : chosen.PARAMETERS)
-                         *number++ =
-                             input.argument(fmt::format("{} of law {}", name, chosen.NAME))
-                                 .number(or_equal ? FoamInput::AT_LEAST : FoamInput::ABOVE, limit);
-                     });
-                   }},
-                  {"drag",
-                   [&](const Value &v) {
-                     neighbor_drag = v.one_of({"static", "neighbor"}) == 1;
-                   }},
-                  {"rin",
-                   [&](const Value &v) {
-                     hub.record.rin = v.number(FoamInput::ABOVE, 0.0);
-                     hub.rin_fixed = true;
-                   }},
-                  {"headroom", [&](const Value &v) {
-                     headroom = v.number(FoamInput::AT_LEAST, 1.0);
-                   }}});
+  input.keywords(
+      {{"law",
+        [&](const Value &v) {
+          law.index = v.one_of(Foam::names_of_laws());
+          Foam::with_law(law, [&](const auto &chosen) {
+            auto number = law.parameters.begin();
+            for (const auto &[name, limit, or_equal] : chosen.PARAMETERS)
+              *number++ = input.argument(fmt::format("{} of law {}", name, chosen.NAME))
+                              .number(or_equal ? FoamInput::AT_LEAST : FoamInput::ABOVE, limit);
+          });
+        }},
+       {"drag",
+        [&](const Value &v) {
+          const int drag = v.one_of({"static", "neighbor", "contact"});
+          neighbor_drag = drag == 1;
+          mu_c = drag != 2 ? 0.0
+                           : input.argument("MUC of drag contact").number(FoamInput::AT_LEAST, 0.0);
+        }},
+       {"rin",
+        [&](const Value &v) {
+          hub.record.rin = v.number(FoamInput::ABOVE, 0.0);
+          hub.rin_fixed = true;
+        }},
+       {"headroom", [&](const Value &v) {
+          headroom = v.number(FoamInput::AT_LEAST, 1.0);
+        }}});
 }
 
 void PairDurianFoam::coeff(int narg, char **arg)
@@ -134,6 +138,7 @@ void PairDurianFoam::write_restart_settings(FILE *fp)
                              r.ain,
                              double(hub.ain_fixed),
                              double(neighbor_drag),
+                             mu_c,
                              headroom,
                              r.tau,
                              r.removed_bubbles,
@@ -156,26 +161,28 @@ void PairDurianFoam::read_restart_settings(FILE *fp)
   r.ain = values[3];
   hub.ain_fixed = values[4] != 0.0;
   neighbor_drag = values[5] != 0.0;
-  headroom = values[6];
-  r.tau = values[7];
-  r.removed_bubbles = values[8];
-  r.removed_gas = values[9];
-  law.index = static_cast<int>(values[10]);
+  mu_c = values[6];
+  headroom = values[7];
+  r.tau = values[8];
+  r.removed_bubbles = values[9];
+  r.removed_gas = values[10];
+  law.index = static_cast<int>(values[11]);
   std::copy_n(values + SETTINGS - law.parameters.size(), law.parameters.size(),
               law.parameters.begin());
 
   // LAMMPS reads what is there, be it a damaged file or that of another version of this style
 
-  const bool sound = mu0 > 0.0 && r.rin >= 0.0 && r.ain >= 0.0 && headroom >= 1.0 && r.tau >= 0.0 &&
-                     r.removed_bubbles >= 0.0;
-  if (!sound ||
-      !std::isfinite(mu0 + r.rin + r.ain + headroom + r.tau + r.removed_bubbles + r.removed_gas))
+  const bool sound = mu0 > 0.0 && mu_c >= 0.0 && r.rin >= 0.0 && r.ain >= 0.0 && headroom >= 1.0 &&
+                     r.tau >= 0.0 && r.removed_bubbles >= 0.0;
+  if (!sound || !std::isfinite(mu0 + mu_c + r.rin + r.ain + headroom + r.tau + r.removed_bubbles +
+                               r.removed_gas))
     error->all(
         FLERR,
-        "Pair style durian/foam: the restart file has mu0 {} (must be > 0), mean radius {} and "
+        "Pair style durian/foam: the restart file has mu0 {} (must be > 0), mu_c {}, mean radius "
+        "{} and "
         "mean surface {} (must be >= 0), headroom {} (must be >= 1), tau {} and {} removed bubbles "
         "(must be >= 0): it is damaged, or of another version of this style",
-        mu0, r.rin, r.ain, headroom, r.tau, r.removed_bubbles);
+        mu0, mu_c, r.rin, r.ain, headroom, r.tau, r.removed_bubbles);
   bool law_known = false;
   Foam::with_law(law, [&](const auto &chosen) {
     law_known = true;

@@ -33,6 +33,7 @@ PairFoam::PairFoam(LAMMPS *lmp, const char *name) : Pair(lmp), hub(lmp, name), n
   writedata = 1;
   finitecutflag = 1;
   no_virial_fdotr_compute = 1;    // a bubble may touch its own image: tally pair by pair
+  comm_forward = 3;               // given velocities
   comm_reverse = capacity(all_columns);
   list_flags = NeighConst::REQ_SIZE;
 }
@@ -62,6 +63,34 @@ void PairFoam::gather_diagnostics()
   ev_unset();
   if (domain->box_change) comm->forward_comm();    // at output the box may have moved once more
   gather(Foam::DIAGNOSTICS);
+}
+
+// a product with the matrix of drag between bubbles in contact: foam_contact_drag.h
+
+void PairFoam::gather_given()
+{
+  ev_unset();
+  make_room(Foam::GIVEN);
+  send_given();
+  gather(Foam::DRAG | Foam::GIVEN);
+}
+
+void PairFoam::send_given()
+{
+  comm->forward_comm(this);
+}
+
+int PairFoam::pack_forward_comm(int n, int *sent, double *buf, int, int *)
+{
+  int m = 0;
+  for (int c = 0; c < 3; c++)
+    for (int ii = 0; ii < n; ii++) buf[m++] = given[c][sent[ii]];
+  return m;
+}
+
+void PairFoam::unpack_forward_comm(int n, int first, double *buf)
+{
+  for (int c = 0; c < 3; c++, buf += n) std::copy_n(buf, n, given[c] + first);
 }
 
 void PairFoam::make_room(unsigned what)

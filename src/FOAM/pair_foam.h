@@ -28,6 +28,8 @@ class PairFoam : public Pair {
   void compute(int, int) override;
   void init_style() override;
   void setup() override;
+  int pack_forward_comm(int, int *, double *, int, int *) override;
+  void unpack_forward_comm(int, int, double *) override;
   int pack_reverse_comm(int, int, double *) override;
   void unpack_reverse_comm(int, int *, double *) override;
   double memory_usage() override;
@@ -35,7 +37,9 @@ class PairFoam : public Pair {
   FoamHub hub;
 
   void gather_diagnostics();    // Foam::DIAGNOSTICS of this state, for computes
-  void refresh();               // cutoffs, ghosts and bins for bubbles that have grown
+  void make_room(unsigned what);
+  void gather_given();    // numbers of contacts, and sums of what owned bubbles have in `given`
+  void refresh();         // cutoffs, ghosts and bins for bubbles that have grown
   bool outgrown(double R) const { return R > cutoff_radius; }    // have bubbles of this radius?
   virtual double stiffest() const = 0;                           // largest spring constant
   virtual double range() const { return 1.0; }    // forces act at r < range (R_i + R_j)
@@ -44,6 +48,7 @@ class PairFoam : public Pair {
 
   double mu0 = 1.0;              // coefficient
   bool neighbor_drag = false;    // relative to neighbors' mean velocity or to a liquid at rest
+  double mu_c = 0.0;             // coefficient between bubbles in contact
 
   // where LAMMPS' communication does not do it: radii of ghosts, or, on a single rank, all of ghosts
 
@@ -60,12 +65,14 @@ class PairFoam : public Pair {
   FoamColumns vsum{all_columns, "sums of velocities", 3, Foam::VSUM};
   FoamColumns area{all_columns, "contact areas", 1, Foam::AREA};
   FoamColumns film{all_columns, "film exchange", 1, Foam::FILM};
+  FoamColumns given{all_columns, "given velocities", 3, Foam::GIVEN};    // not a sum
   FoamColumns energies{all_columns, "energies", NENERGIES, Foam::ENERGY};
 
   template <class Space> Foam::ContactSums contact_sums(Space &space)
   {
     return {space.column(contacts, 0),
             {space.column(vsum, 0), space.column(vsum, 1), space.column(vsum, 2)},
+            {space.column(given, 0), space.column(given, 1), space.column(given, 2)},
             space.column(area, 0),
             space.column(film, 0),
             space.column(energies, ESPRING),
@@ -81,8 +88,8 @@ class PairFoam : public Pair {
   unsigned gathered = 0;         // what is sent in reverse communication
 
   unsigned gathered_with_forces() const;
-  void make_room(unsigned what);
   virtual void gather(unsigned what) = 0;    // makes room, and runs the loop over contacts
+  virtual void send_given();                 // to ghosts
 
  private:
   bool rerun_told = false, inertia_told = false;

@@ -61,6 +61,7 @@ class FixFoamIntegrateKokkos : public FoamTravellingKokkos<Style, DeviceType> {
     this->pair->take_list();
   }
   double largest_radius() override { return this->largest_radius_in(space); }
+  void solve_drag() override { this->solve_drag_in(space); }
   double count_bubbles() override { return this->count_bubbles_in(space); }
 
   void host_reads() override { this->atomKK->sync(Host, ALL_MASK); }

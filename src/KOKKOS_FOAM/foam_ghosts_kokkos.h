@@ -62,6 +62,39 @@ template <class DeviceType, bool EVERYTHING> struct RefreshGhosts {
   }
 };
 
+template <class DeviceType> struct CopyFromOwners {
+  static constexpr const char *NAME = "foam: given velocities of ghosts";
+  FoamGhosts<DeviceType> g;
+  Foam::Given given;
+  KOKKOS_INLINE_FUNCTION void operator()(int n) const
+  {
+    for (int k = 0; k < 3; k++) given.v[k][g.nlocal + n] = given.v[k][g.owner(g.nlocal + n)];
+  }
+};
+
+template <class List> struct PackGiven {
+  static constexpr const char *NAME = "foam: pack given velocities";
+  Foam::Given given;
+  List sent;
+  double *buf;
+  KOKKOS_INLINE_FUNCTION void operator()(int m) const
+  {
+    for (int k = 0; k < 3; k++) buf[3 * m + k] = given.v[k][sent(m)];
+  }
+};
+template <class List> PackGiven(Foam::Given, List, double *) -> PackGiven<List>;
+
+struct UnpackGiven {
+  static constexpr const char *NAME = "foam: unpack given velocities";
+  Foam::Given given;
+  const double *buf;
+  int first;
+  KOKKOS_INLINE_FUNCTION void operator()(int m) const
+  {
+    for (int k = 0; k < 3; k++) given.v[k][first + m] = buf[3 * m + k];
+  }
+};
+
 template <class View, class List> struct PackOne {
   static constexpr const char *NAME = "foam: pack";
   View values;

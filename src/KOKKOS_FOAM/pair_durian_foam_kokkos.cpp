@@ -34,7 +34,6 @@ PairDurianFoamKokkos<DeviceType>::PairDurianFoamKokkos(LAMMPS *lmp)
   datamask_read = X_MASK | V_MASK | F_MASK | RADIUS_MASK | TYPE_MASK | TAG_MASK;
   datamask_modify = F_MASK | ENERGY_MASK | VIRIAL_MASK;
   list_flags |= NeighConst::REQ_NEWTON_OFF;
-  comm_forward = 1;
   space.keep(all_columns);
 }
 
@@ -219,9 +218,27 @@ template <class DeviceType> bool PairDurianFoamKokkos<DeviceType>::sends_radii()
   return hub.radii_change && !lmp->kokkos->forward_comm_legacy;
 }
 
-template <class DeviceType>
-int PairDurianFoamKokkos<DeviceType>::pack_forward_comm(int n, int *sent, double *buf, int, int *)
+template <class DeviceType> void PairDurianFoamKokkos<DeviceType>::send_given()
 {
+  take_list();
+  if (owners_known) {
+    space.for_each(atom->nghost, CopyFromOwners<DeviceType>{ghosts(), given_there()});
+  } else {
+    sending = GIVEN;
+    comm->forward_comm(this);
+  }
+}
+
+template <class DeviceType> Foam::Given PairDurianFoamKokkos<DeviceType>::given_there()
+{
+  return {{space.column(given, 0), space.column(given, 1), space.column(given, 2)}};
+}
+
+template <class DeviceType>
+int PairDurianFoamKokkos<DeviceType>::pack_forward_comm(int n, int *sent, double *buf, int only,
+                                                        int *list)
+{
+  if (sending == GIVEN) return PairDurianFoam::pack_forward_comm(n, sent, buf, only, list);
   if (sending == OWNERS) {
     k_owner.sync_host();
     for (int m = 0; m < n; m++) buf[m] = k_owner.view_host()(sent[m]);
@@ -235,6 +252,7 @@ int PairDurianFoamKokkos<DeviceType>::pack_forward_comm(int n, int *sent, double
 template <class DeviceType>
 void PairDurianFoamKokkos<DeviceType>::unpack_forward_comm(int n, int first, double *buf)
 {
+  if (sending == GIVEN) return PairDurianFoam::unpack_forward_comm(n, first, buf);
   if (sending == OWNERS) {
     k_owner.sync_host();
     for (int m = 0; m < n; m++) k_owner.view_host()(first + m) = static_cast<int>(buf[m]);
@@ -253,6 +271,10 @@ int PairDurianFoamKokkos<DeviceType>::pack_forward_comm_kokkos(int n, DAT::tdual
 {
   const auto sent = k_sent.view<DeviceType>();
   double *const buf = k_buf.view<DeviceType>().data();
+  if (sending == GIVEN) {
+    space.for_each(n, PackGiven{given_there(), sent, buf});
+    return 3 * n;
+  }
   if (sending == OWNERS)
     space.for_each(n, PackOne{k_owner.view<DeviceType>(), sent, buf});
   else
@@ -265,7 +287,9 @@ void PairDurianFoamKokkos<DeviceType>::unpack_forward_comm_kokkos(int n, int fir
                                                                   DAT::tdual_double_1d &k_buf)
 {
   const double *const buf = k_buf.view<DeviceType>().data();
-  if (sending == OWNERS) {
+  if (sending == GIVEN) {
+    space.for_each(n, UnpackGiven{given_there(), buf, first});
+  } else if (sending == OWNERS) {
     space.for_each(n, UnpackOne{k_owner.view<DeviceType>(), buf, first});
     k_owner.modify<DeviceType>();
   } else {
@@ -393,7 +417,7 @@ template <class DeviceType> void PairDurianFoamKokkos<DeviceType>::gather(unsign
 {
   make_room(what);
   take_list();
-  hub.free_surface_known = false;
+  if (what & Foam::FORCE) hub.free_surface_known = false;
   Foam::with_law(law, [&](const auto &chosen) {
     Foam::with_gathered(what, evflag, [&]<unsigned WHAT>() {
       Foam::with_dimension(domain->dimension, [&]<int D>() { gather_in<D, WHAT>(chosen, what); });

@@ -62,6 +62,7 @@ template <class DeviceType> class PairDurianFoamKokkos : public PairDurianFoam, 
 
  protected:
   void gather(unsigned what) override;
+  void send_given() override;
 
  private:
   FoamKokkos<DeviceType> space;
@@ -75,7 +76,7 @@ template <class DeviceType> class PairDurianFoamKokkos : public PairDurianFoam, 
   DAT::tdual_int_1d k_owner;    // of a ghost, on a single rank
   using Boxes = Kokkos::View<int *[3], Kokkos::LayoutRight, DeviceType>;
   Boxes boxes;    // from owner to ghost
-  enum { RADII, OWNERS } sending = RADII;
+  enum { RADII, OWNERS, GIVEN } sending = RADII;
   bool owners_known = false;    // for the present list
   bool ghosts_fresh = false;    // just refreshed in everything
 
@@ -87,6 +88,7 @@ template <class DeviceType> class PairDurianFoamKokkos : public PairDurianFoam, 
   void make_rows();
   void make_owners();
   FoamGhosts<DeviceType> ghosts() const;
+  Foam::Given given_there();
   template <int D, unsigned WHAT, class Law> void gather_in(const Law &, unsigned what);
 };
 
