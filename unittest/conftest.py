@@ -3,12 +3,17 @@
 import pytest
 
 from foams import Base
-from runner import BACKENDS, KOKKOS, PLAIN, Runner
+from runner import BACKENDS, BITWISE, KOKKOS, PLAIN, Runner
 
 
 @pytest.fixture(params=PLAIN)
 def lmp(request, tmp_path):
     return Runner(request.param, tmp_path)
+
+
+@pytest.fixture(params=PLAIN)
+def bitwise_lmp(request, tmp_path):
+    return Runner(request.param, tmp_path, BITWISE.get(request.param))
 
 
 @pytest.fixture(params=BACKENDS)

@@ -146,15 +146,15 @@ run           0
         assert again.thermo[0][name][0] == value
 
 
-def test_fix_modify(lmp):
+def test_fix_modify(bitwise_lmp):
     """Its keywords do what those of the fix do: the run that they are set for is the same."""
     words = "rmin 0.3 film no liquid lsw nmin 70"
-    plain = lmp(foam("run 300", gas=f"0.3 1.0 {words}"), files=data())
-    changed = lmp(foam(f"fix_modify gas K 0.3 {words} kappa 1.0\nrun 300", gas="1.0 0.0"), files=data())
+    plain = bitwise_lmp(foam("run 300", gas=f"0.3 1.0 {words}"), files=data())
+    changed = bitwise_lmp(foam(f"fix_modify gas K 0.3 {words} kappa 1.0\nrun 300", gas="1.0 0.0"), files=data())
     for name, column in plain.thermo[0].items():
         assert np.array_equal(column, changed.thermo[0][name]), name
     assert changed.thermo[0]["Atoms"][-1] <= 70
-    result = lmp(foam("fix_modify gas tau 5.0\nrun 0"), files=data())
+    result = bitwise_lmp(foam("fix_modify gas tau 5.0\nrun 0"), files=data())
     assert result.thermo[0]["f_gas[1]"][0] == 5.0
 
 

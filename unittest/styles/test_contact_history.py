@@ -145,7 +145,7 @@ def run(lmp, name, **more):
     if "among others" in name:
         lines = re.sub("(gas|ages|step|dump +d) all", r"\1 bubbles", lines)
         lines = lines.replace("read_data data\n", AMONG).replace("pair_coeff    * * 1.0\n", COEFFICIENTS)
-    return lmp(lines.replace("comm_style tiled", tiled(lmp)), files=files(dim), ranks=ranks,
+    return lmp(tiled(lmp, lines), files=files(dim), ranks=ranks,
                check="host fix" not in name)
 
 
@@ -164,9 +164,9 @@ def test_ages(lmp, name):
         assert last["f_step[4]"][-1] > 20
 
 
-def test_trials_change_nothing(lmp):
+def test_trials_change_nothing(bitwise_lmp):
     """Nor is a trial a matter of rounding: what is written is the same, bit by bit."""
-    assert run(lmp, "rejected").read("dump") == run(lmp, "rejected, trials").read("dump")
+    assert run(bitwise_lmp, "rejected").read("dump") == run(bitwise_lmp, "rejected, trials").read("dump")
 
 
 def test_many_contacts(lmp):
@@ -195,11 +195,11 @@ def test_through_two_images(lmp, ranks):
 
 @pytest.mark.parametrize("ranks", [1, 2, 4])
 @pytest.mark.parametrize("dim", [2, 3])
-def test_restart(lmp, dim, ranks):
+def test_restart(bitwise_lmp, dim, ranks):
     """A restarted run goes on bit by bit, with the fix' own numbers."""
     lines = text(dim=dim, after="atom_modify sort 20 0.0\nrestart 40 state.*", run="run 90")
-    whole = lmp(lines, files=files(dim), ranks=ranks)
-    again = lmp(text(dim=dim, read="read_restart state.40", after="atom_modify sort 20 0.0\nrestart 40 again.*",
+    whole = bitwise_lmp(lines, files=files(dim), ranks=ranks)
+    again = bitwise_lmp(text(dim=dim, read="read_restart state.40", after="atom_modify sort 20 0.0\nrestart 40 again.*",
                      run="run 50").replace("dump id", "rest id"), ranks=ranks, directory=whole.directory)
     ours = {frame.step: frame for frame in whole.dump("dump")}
     rest = again.dump("rest")

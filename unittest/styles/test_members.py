@@ -150,11 +150,11 @@ run 20"""}))
 
 @pytest.mark.parametrize("ranks", [1, 2])
 @pytest.mark.parametrize("integrator, pair", [("abm", ""), ("rkc", ""), ("abm", "drag neighbor")])
-def test_restart_is_bitwise(lmp, integrator, pair, ranks):
+def test_restart_is_bitwise(bitwise_lmp, integrator, pair, ranks):
     keywords = dict(gas="0.1 0.1 rmin 0.4", pair=pair, integrator=integrator, every=10)
     text = among_others(case(2, after="restart 50 state.*", run="run 90", **keywords))
-    a = lmp(text, files=files(2, 10), ranks=ranks)
-    b = lmp(f"""
+    a = bitwise_lmp(text, files=files(2, 10), ranks=ranks)
+    b = bitwise_lmp(f"""
 read_restart  state.50
 neighbor      0.3 bin
 fix           gas bubbles foam/coarsen 0.1 0.1 rmin 0.4

@@ -245,7 +245,7 @@ WAYS += [(name, way, ranks) for name in list(INTERRUPTED)[2:]
 
 
 @pytest.mark.parametrize("name, way, ranks", WAYS)
-def test_restart_is_bitwise(lmp, name, way, ranks):
+def test_restart_is_bitwise(bitwise_lmp, name, way, ranks):
     """A run from a restart file goes on bit by bit like the run that wrote it."""
     how = dict(INTERRUPTED[name])
     dim = how.get("dim", 2)
@@ -261,8 +261,8 @@ def test_restart_is_bitwise(lmp, name, way, ranks):
         first = case(dim, after=sort, run=f"run {FIRST}\nwrite_restart state\nrun {SECOND}",
                      **keywords)
         second = continued(**how)
-    a = lmp(first, files={"data": data_file([box] * dim, x, R, v)}, ranks=ranks)
-    b = lmp(second, directory=a.directory, ranks=ranks)
+    a = bitwise_lmp(first, files={"data": data_file([box] * dim, x, R, v)}, ranks=ranks)
+    b = bitwise_lmp(second, directory=a.directory, ranks=ranks)
 
     frames = {frame.step: frame for frame in a.dump("dump")}
     again = b.dump("dump2")
@@ -307,7 +307,7 @@ def test_restart_is_bitwise(lmp, name, way, ranks):
 @pytest.mark.parametrize("name, ranks", [("static", 1), ("static", 2), ("neighbor", 2),
                                          ("source", 1), ("neighbor without drift", 1),
                                          ("rkc", 1)])
-def test_run_in_pieces(lmp, name, ranks):
+def test_run_in_pieces(bitwise_lmp, name, ranks):
     """Two runs are one run.  Setting up a run puts the bubbles in order; that happens in the one
     run too where it writes a restart file, and then both agree bit by bit."""
     keywords = {k: v for k, v in INTERRUPTED[name].items()}
@@ -315,10 +315,8 @@ def test_run_in_pieces(lmp, name, ranks):
     x, R, v, box = foam(2, 10, seed=11)
     files = {"data": data_file([box] * 2, x, R, v)}
     restarts = f"restart {FIRST} state.*"
-    one = lmp(case(2, after=restarts, run=f"run {FIRST + SECOND}", **keywords), files=files,
-              ranks=ranks)
-    two = lmp(case(2, after=restarts, run=f"run {FIRST}\nrun {SECOND}", **keywords), files=files,
-              ranks=ranks)
+    one, two = (bitwise_lmp(case(2, after=restarts, run=run, **keywords), files=files, ranks=ranks)
+                for run in (f"run {FIRST + SECOND}", f"run {FIRST}\nrun {SECOND}"))
     a, b = one.dump("dump"), two.dump("dump")
     assert [frame.step for frame in a] == [frame.step for frame in b]
     assert len(a[-1]) <= len(a[0])
