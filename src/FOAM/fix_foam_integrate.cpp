@@ -194,8 +194,9 @@ void FixFoamIntegrate::solve_drag()
 double FixFoamIntegrate::error_of_drag() const
 {
   constexpr double PART = 0.02;
-  const double length = pair->hub.record.rin,
-               h = MIN(driver.h > 0.0 ? driver.h : update->dt, largest_step());
+  const double first = dt_start > 0.0 ? dt_start : update->dt;
+  const double h = MIN(driver.h > 0.0 ? driver.h : first, largest_step());
+  const double length = pair->hub.record.rin;
   return MIN(PART * driver.control.tolerance * length / h,
              PART * displacement() * length / natural_time());
 }
