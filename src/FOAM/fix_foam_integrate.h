@@ -309,7 +309,7 @@ template <class Space> void FixFoamIntegrate::solve_drag_in(Space &space)
     columns(residual, s.r);
     columns(pair->given, s.p);
     return Foam::solve_contact_drag(
-        s, space, atom->nlocal, error_of_drag(), [&] { pair->gather_given(); },
+        s, space, atom->nlocal, error_of_drag(), [&] { pair->gather_given(); }, false, [] {},
         [&](const auto &functor) {
           return foam_sum(space.template totals<Foam::DragTotals>(atom->nlocal, functor), world);
         });

@@ -12,11 +12,15 @@
 
 #include "foam_drag.h"
 
+#include <algorithm>
+
 // Drag between bubbles in contact [Tighe et al., Phys. Rev. Lett. 105, 088303 (2010)]:
-//   mu0 (v_i - u_i) + mu_c sum_j (v_i - v_j) = F_i,  j in contact with i,
-// a linear system A v = b for all bubbles, A symmetric and, for mu0 > 0, positive: the same for each component.  Conjugate
-// gradients solve it, preconditioned by the diagonal, from the velocities of the last solution on.  A product A p is a pass
-// over the contacts.  Residuals r = b - A v bound the error of v: A has no eigenvalue below mu0, so |error| <= |r| / mu0.
+//   mu0 (v_i - u_i) + mu_c sum_j (v_i - v_j) = F_i,  j in contact with i.
+// For w = v - u, which has no jump where a sheared box is periodic, this is a linear system A w = b of all bubbles,
+//   mu0 w_i + mu_c sum_j (w_i - w_j) = F_i - mu_c sum_j (u_i - u_j),
+// A symmetric and, for mu0 > 0, positive: the same for each component.  Conjugate gradients solve it, preconditioned by the
+// diagonal, from the last solution on.  A product A p is a pass over the contacts.  Residuals r = b - A w bound the
+// error of w: A has no eigenvalue below mu0, so |error| <= |r| / mu0.
 
 namespace Foam {
 
@@ -31,19 +35,19 @@ struct DragTotals {    // of one iteration; r in units of velocity, r / mu0
   }
 };
 
-// The columns of the system.  contacts and vsum are the sums over contacts of what was given: v or p.
+// The columns of the system.  contacts and vsum are the sums over contacts of what was given last, in p.
 
 template <int D, class B> struct DragSystem {
-  Drag<D, B> drag;    // without contacts
+  Drag<D, B> drag;
   double mu_c;
   const double *contacts, *vsum[3];
-  double *v[3], *r[3], *p[3];
+  double *w[3], *r[3], *p[3];
 
   FOAM_FUNCTION bool alive(int i) const { return drag.b.radius(i) > 0.0; }
   FOAM_FUNCTION double diagonal(int i) const { return drag.mu0 + mu_c * contacts[i]; }
-  FOAM_FUNCTION double apply(int i, int k, double given) const
+  FOAM_FUNCTION double apply(int i, int k) const    // A p
   {
-    return contact_drag_force(drag.mu0, mu_c, contacts[i], given, vsum[k][i]);
+    return contact_drag_force(drag.mu0, mu_c, contacts[i], p[k][i], vsum[k][i]);
   }
   FOAM_FUNCTION void add(int i, int k, DragTotals &all) const
   {
@@ -53,32 +57,49 @@ template <int D, class B> struct DragSystem {
   }
 };
 
-// v, of which the products are asked for
+// p = u, of which the sums are asked for
 
-template <int D, class B> struct GiveVelocities {
-  static constexpr const char *NAME = "foam: drag, give velocities";
+template <int D, class B> struct GiveAmbient {
+  static constexpr const char *NAME = "foam: drag, ambient velocities";
   DragSystem<D, B> s;
   FOAM_FUNCTION void operator()(int i) const
   {
-    for (int k = 0; k < D; k++) s.p[k][i] = s.v[k][i] = s.alive(i) ? s.v[k][i] : 0.0;
+    for (int k = 0; k < D; k++) s.p[k][i] = s.alive(i) ? s.drag.ambient(i, k) : 0.0;
   }
 };
 
-// r = b - A v, and the first direction
+// r = b, and p = w
+
+template <int D, class B> struct TakeForces {
+  static constexpr const char *NAME = "foam: drag, forces";
+  DragSystem<D, B> s;
+  bool flows;    // p is u
+  FOAM_FUNCTION void operator()(int i) const
+  {
+    const bool alive = s.alive(i);
+    for (int k = 0; k < D; k++) {
+      s.r[k][i] = alive ? s.drag.b.f(i, k) : 0.0;
+      if (alive && flows) s.r[k][i] -= s.apply(i, k) - s.drag.mu0 * s.p[k][i];
+      if (!alive) s.w[k][i] = 0.0;
+      s.p[k][i] = s.w[k][i];
+    }
+  }
+};
+
+// r = b - A w, and the first direction
 
 template <int D, class B> struct StartSolution {
   static constexpr const char *NAME = "foam: drag, start";
   DragSystem<D, B> s;
   FOAM_FUNCTION void operator()(int i, DragTotals &all) const
   {
+    if (!s.alive(i)) return;
     for (int k = 0; k < D; k++) {
-      s.r[k][i] = s.p[k][i] = 0.0;
-      if (!s.alive(i)) continue;
-      const double without = s.drag.without_contacts(i, k);
-      s.r[k][i] = s.drag.mu0 * without - s.apply(i, k, s.v[k][i]);
-      s.p[k][i] = s.r[k][i] / s.diagonal(i);
+      const double without = s.r[k][i] / s.drag.mu0;
       all.forces += without * without;
       all.numbers += 1.0;
+      s.r[k][i] -= s.apply(i, k);
+      s.p[k][i] = s.r[k][i] / s.diagonal(i);
       s.add(i, k, all);
     }
   }
@@ -89,7 +110,7 @@ template <int D, class B> struct AlongDirection {    // p A p
   DragSystem<D, B> s;
   FOAM_FUNCTION void operator()(int i, DragTotals &all) const
   {
-    for (int k = 0; k < D; k++) all.product += s.p[k][i] * s.apply(i, k, s.p[k][i]);
+    for (int k = 0; k < D; k++) all.product += s.p[k][i] * s.apply(i, k);
   }
 };
 
@@ -101,8 +122,8 @@ template <int D, class B> struct AdvanceSolution {
   {
     if (!s.alive(i)) return;
     for (int k = 0; k < D; k++) {
-      s.v[k][i] += alpha * s.p[k][i];
-      s.r[k][i] -= alpha * s.apply(i, k, s.p[k][i]);
+      s.w[k][i] += alpha * s.p[k][i];
+      s.r[k][i] -= alpha * s.apply(i, k);
       s.add(i, k, all);
     }
   }
@@ -119,20 +140,27 @@ template <int D, class B> struct NextDirection {
   }
 };
 
-// v with a root mean square error (over components) of at most so much.  gather() brings the sums over contacts of
-// what is in p, all(functor) the totals over all ranks.  The number of products, or -1 if it is not found.
+// w with a root mean square error (over components) of at most so much.  gather() brings the sums over contacts of
+// what is in p, gather_ambient(), if the liquid flows, the same with u of images where they are; all(functor) the totals over
+// all ranks.  The number of products, or -1 if it is not found.
 
-template <int D, class B, class Space, class Gather, class All>
+template <int D, class B, class Space, class Gather, class Ambient, class All>
 int solve_contact_drag(const DragSystem<D, B> &s, Space &space, int n, double error,
-                       const Gather &gather, const All &all)
+                       const Gather &gather, bool flows, const Ambient &gather_ambient,
+                       const All &all)
 {
   constexpr double ROUNDING = 1.0e-14;
   constexpr int MOST = 10000;
-  space.for_each(n, GiveVelocities<D, B>{s});
+  int products = 1;
+  if (flows) {
+    space.for_each(n, GiveAmbient<D, B>{s});
+    gather_ambient();
+    products++;
+  }
+  space.for_each(n, TakeForces<D, B>{s, flows});
   gather();
   DragTotals now = all(StartSolution<D, B>{s});
   const double enough = std::max(error * error * now.numbers, ROUNDING * ROUNDING * now.forces);
-  int products = 1;
   for (; now.squares > enough && products < MOST; products++) {
     gather();
     const double alpha = now.product / all(AlongDirection<D, B>{s}).product;

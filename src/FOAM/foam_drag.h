@@ -45,16 +45,14 @@ template <int D, class B> struct Drag {
   AmbientVelocity ambient{};
   Sums<DriftTotals> drift{};    // nothing unless it is taken off
   bool drift_removed = false;
-  const double *solved[3] = {};    // velocities, if bubbles in contact drag each other: foam_contact_drag.h
+  const double *solved[3] =
+      {};    // v - u, if bubbles in contact drag each other: foam_contact_drag.h
 
-  FOAM_FUNCTION double without_contacts(int i, int k) const
-  {
-    return drag_velocity(b.f(i, k), mu0, ambient(i, k));
-  }
   FOAM_FUNCTION double velocity(int i, int k) const
   {
     if (!(b.radius(i) > 0.0)) return 0.0;
-    double v = solved[0] ? solved[k][i] : without_contacts(i, k);
+    const double u = ambient(i, k);
+    double v = solved[0] ? solved[k][i] + u : drag_velocity(b.f(i, k), mu0, u);
     if (drift_removed && drift().bubbles > 0.0) v -= drift().velocity[k] / drift().bubbles;
     return v;
   }
