@@ -305,7 +305,7 @@ template <class Space> void FixFoamIntegrate::solve_drag_in(Space &space)
                              {},
                              {},
                              {}};
-    columns(solved, s.v);
+    columns(solved, s.w);
     columns(residual, s.r);
     columns(pair->given, s.p);
     return Foam::solve_contact_drag(

@@ -156,4 +156,5 @@ void FixFoamIntegrate::init()
   pair->hub.radii_change = gas != nullptr;
   lag.active = lags();
   if (pair->neighbor_drag) lag.columns.use(atom->nmax);
+  if (pair->mu_c > 0.0) solved.use(atom->nmax);
 }

@@ -61,35 +61,41 @@ int FixFoamIntegrate::pack_restart(int i, double *buf)
   // in mid-run the last velocities are the present ones
 
   if (lag.columns.in_use() && update->whichflag == 1) lag.keep_last(i);
+  unsigned in_use = 0;
+  for (size_t n = 0; n < travelling().size(); n++)
+    if (travelling()[n]->in_use()) in_use |= 1u << n;
   buf[0] = size_restart(i);
-  return 1 + pack_exchange(i, buf + 1);
+  buf[1] = in_use;
+  return 2 + pack_exchange(i, buf + 2);
 }
+
+// What was in use when the file was written may be so again; residuals only if LAMMPS keeps less here, too
 
 void FixFoamIntegrate::unpack_restart(int i, int nth)
 {
   const double *extra = atom->extra[i];
   for (int m = 0; m < nth; m++) extra += static_cast<int>(*extra);
-  const int count = static_cast<int>(*extra++) - 1;
-  extra += columns.unpack(i, extra);
-  const int rest = count - columns.active();    // lag, residuals or both, whichever was in use
-  if (rest >= lag.columns.capacity()) {
-    if (!lag.columns.in_use()) lag.columns.use(atom->nmax);
-    extra += lag.columns.unpack(i, extra);
+  const auto in_use = static_cast<unsigned>(extra[1]);
+  extra += 2;
+  const FoamColumnList all = travelling();
+  for (size_t n = 0; n < all.size(); n++) {
+    if (!(in_use & (1u << n))) continue;
+    if (all[n] != &residuals) all[n]->use(atom->nmax);
+    all[n]->unpack(i, extra);
+    extra += all[n]->capacity();
   }
-  if (rest % lag.columns.capacity() == residuals.capacity())
-    residuals.unpack(i, extra);    // if of use here, too
 }
 
 int FixFoamIntegrate::size_restart(int)
 {
-  int n = 1;
+  int n = 2;
   for (const FoamColumns *all : travelling()) n += all->active();
   return n;
 }
 
 int FixFoamIntegrate::maxsize_restart()
 {
-  return 1 + capacity(travelling());
+  return 2 + capacity(travelling());
 }
 
 std::vector<double *> FixFoamIntegrate::progress()
