@@ -5,7 +5,7 @@ import re
 import numpy as np
 import pytest
 
-from foams import SHORT, assert_same_run, case, foam
+from foams import assert_same_run, case, foam
 from runner import HEAD, PRECISE, data_file
 
 
@@ -95,13 +95,6 @@ def test_coarsens_alike_everywhere(kk_lmp, backends, dim, integrator, ranks):
     phi = plain.thermo[0]["f_gas[5]"]
     assert phi == pytest.approx(phi[0], rel=1e-12)
     assert integrator == "rkc" or plain.thermo[0]["f_gas[7]"][-1] > 0
-
-
-@pytest.mark.parametrize("ranks", [1, 2])
-def test_ranks(lmp, ranks):
-    """In steps so small that solutions are exact, the same foam to more digits."""
-    one, more = (run(lmp, 1.0, ranks=n, step="1e-9", run="run 10", every=10) for n in (1, ranks))
-    assert_same_run(one.thermo[0], more.thermo[0], SHORT)
 
 
 def test_restart(lmp):
