@@ -180,6 +180,7 @@ void FixFoamIntegrate::take_listed()
 {
   FoamHost space(lmp, groupbit);
   take_listed_in(space);
+  pair->take_list();
 }
 
 void FixFoamIntegrate::solve_drag()

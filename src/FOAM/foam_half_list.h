@@ -10,9 +10,13 @@
 #ifndef LMP_FOAM_HALF_LIST_H
 #define LMP_FOAM_HALF_LIST_H
 
+#include "foam_physics.h"
+
 #include "neigh_list.h"
 
 #include <type_traits>
+
+#include <vector>
 
 namespace LAMMPS_NS {
 
@@ -43,6 +47,41 @@ template <bool NEWTON> struct FoamHalfList {
   {
     const int i = ilist[n];
     return {i, numneigh[i], firstneigh[i], nlocal};
+  }
+};
+
+// A copy of LAMMPS' list without the pairs that do not come near before the next one: a list by the cutoff of types has
+// several times as many.
+
+struct FoamShortList {
+  std::vector<int> numneigh, partners;
+  std::vector<int *> firstneigh;
+
+  template <class Near>
+  void take(int inum, const int *ilist, const int *size, int *const *rows, int nlocal,
+            const Near &near)
+  {
+    numneigh.assign(nlocal, 0);
+    firstneigh.assign(nlocal, nullptr);
+    partners.clear();
+    for (int n = 0; n < inum; n++) {
+      const int i = ilist[n];
+      for (int m = 0; m < size[i]; m++)
+        if (near(i, rows[i][m] & NEIGHMASK)) {
+          partners.push_back(rows[i][m]);
+          numneigh[i]++;
+        }
+    }
+    int *next = partners.data();    // it moves no more
+    for (int n = 0; n < inum; n++) {
+      firstneigh[ilist[n]] = next;
+      next += numneigh[ilist[n]];
+    }
+  }
+  double bytes() const
+  {
+    return sizeof(int) * double(numneigh.capacity() + partners.capacity()) +
+           sizeof(int *) * double(firstneigh.capacity());
   }
 };
 

@@ -20,6 +20,7 @@
 #include "force.h"
 #include "memory.h"
 #include "neigh_list.h"
+#include "neighbor.h"
 
 #include <cmath>
 #include <algorithm>
@@ -53,6 +54,7 @@ PairDurianFoam::~PairDurianFoam()
 void PairDurianFoam::gather(unsigned what)
 {
   make_room(what);
+  take_list();
   Foam::with_law(law, [&](const auto &chosen) {
     Foam::with_gathered(what, evflag, [&]<unsigned WHAT>() {
       Foam::with_dimension(domain->dimension, [&]<int D>() { gather_in<D, WHAT>(chosen, what); });
@@ -61,6 +63,32 @@ void PairDurianFoam::gather(unsigned what)
 
   gathered = what & ~(Foam::FORCE | Foam::GIVEN);
   if (force->newton_pair && gathered) comm->reverse_comm(this);
+}
+
+void PairDurianFoam::take_list()
+{
+  if (!(range() > 1.0)) {
+    near_list.numneigh.clear();
+    return;
+  }
+  if (listed_ncalls == neighbor->ncalls && listed_lastcall == neighbor->lastcall) return;
+  listed_ncalls = neighbor->ncalls;
+  listed_lastcall = neighbor->lastcall;
+  const double factor = range();
+  const double *const radius = atom->radius;
+  const double *const *const x = atom->x;
+  near_list.take(list->inum, list->ilist, list->numneigh, list->firstneigh, atom->nlocal,
+                 [=, this](int i, int j) {
+                   const double reach = factor * (radius[i] + radius[j]) + neighbor->skin;
+                   double square = 0.0;
+                   for (int k = 0; k < 3; k++) square += (x[i][k] - x[j][k]) * (x[i][k] - x[j][k]);
+                   return square < reach * reach;
+                 });
+}
+
+double PairDurianFoam::memory_usage()
+{
+  return PairFoam::memory_usage() + near_list.bytes();
 }
 
 struct PairDurianFoam::Tally {
@@ -85,7 +113,9 @@ void PairDurianFoam::gather_in(const Law &chosen, unsigned what)
 
   auto loop = [&]<bool NEWTON, class T>(T tally) {
     using List = FoamHalfList<NEWTON>;
-    const List half{list->ilist, list->numneigh, list->firstneigh, nlocal};
+    const bool all = near_list.numneigh.empty();
+    const List half{list->ilist, all ? list->numneigh : near_list.numneigh.data(),
+                    all ? list->firstneigh : near_list.firstneigh.data(), nlocal};
     const Foam::ContactLoop<D, WHAT, false, Law, Foam::HostBubbles, List, T> functor{
         space.bubbles(), half, chosen, coefficients, sums, true, what};
     for (int n = 0; n < list->inum; n++) functor(n, tally);
@@ -130,6 +160,7 @@ void PairDurianFoam::init_style()
                  "Pair style durian/foam: law {} is one of bubbles in 3D, but dimension is 2",
                  chosen.NAME);
   });
+  listed_ncalls = -1;
   PairFoam::init_style();
 }
 

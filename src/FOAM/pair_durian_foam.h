@@ -16,6 +16,7 @@ PairStyle(durian/foam,PairDurianFoam);
 #ifndef LMP_PAIR_DURIAN_FOAM_H
 #define LMP_PAIR_DURIAN_FOAM_H
 
+#include "foam_half_list.h"
 #include "foam_law.h"
 #include "pair_foam.h"
 
@@ -41,11 +42,17 @@ class PairDurianFoam : public PairFoam {
   void *extract(const char *, int &) override;
   double stiffest() const override;
   double range() const override;
+  void take_list() override;
+  double memory_usage() override;
   void init_style() override;
 
  protected:
   double **sigma0;    // per pair of types
   Foam::LawChoice law;
+
+  FoamShortList near_list;    // where the law acts beyond contact
+  bigint listed_ncalls = -1,
+         listed_lastcall = -1;    // the list it was made of, by LAMMPS' counters
 
   void allocate();
   void gather(unsigned what) override;
