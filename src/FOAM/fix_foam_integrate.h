@@ -272,6 +272,7 @@ Foam::Rates<D, typename Space::Bubbles> FixFoamIntegrate::rates(Space &space)
   Foam::Drag<D, B> drag{space.bubbles(), pair->mu0};
   if (pair->neighbor_drag)
     drag.ambient = {sums.contacts, {sums.vsum[0], sums.vsum[1], sums.vsum[2]}};
+  drag.walls = pair->hub.walls_that(FoamHub::HOLD, space);
   if (drift_removed) {
     drag.drift = space.template sums<Foam::DriftTotals>(atom->nlocal, Foam::AddDrift<D, B>{drag});
     drag.drift_removed = true;

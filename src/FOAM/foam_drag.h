@@ -11,6 +11,7 @@
 #define LMP_FOAM_DRAG_H
 
 #include "foam_bubbles.h"
+#include "foam_wall.h"
 
 // Forces become velocities: the balance of force and drag, mu0 (v_i - u_i) = F_i, with u_i the ambient velocity,
 // that of the liquid around bubble i
@@ -45,13 +46,14 @@ template <int D, class B> struct Drag {
   AmbientVelocity ambient{};
   Sums<DriftTotals> drift{};    // nothing unless it is taken off
   bool drift_removed = false;
+  Walls walls{};    // that hold bubbles
 
   FOAM_FUNCTION double velocity(int i, int k) const
   {
     if (!(b.radius(i) > 0.0)) return 0.0;
     double v = drag_velocity(b.f(i, k), mu0, ambient(i, k));
     if (drift_removed && drift().bubbles > 0.0) v -= drift().velocity[k] / drift().bubbles;
-    return v;
+    return walls.hold(b, i, k, v);
   }
 };
 

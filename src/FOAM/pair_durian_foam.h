@@ -19,6 +19,8 @@ PairStyle(durian/foam,PairDurianFoam);
 #include "foam_law.h"
 #include "pair_foam.h"
 
+#include "atom.h"
+
 namespace LAMMPS_NS {
 
 // Durian's bubble model: overlapping bubbles repel each other by a contact law (foam_laws.h)
@@ -41,11 +43,14 @@ class PairDurianFoam : public PairFoam {
   void *extract(const char *, int &) override;
   double stiffest() const override;
   double range() const override;
+  Foam::Coefficients coefficients() const override
+  {
+    return {sigma0[0], atom->ntypes, hub.record.rin};
+  }
   void init_style() override;
 
  protected:
   double **sigma0;    // per pair of types
-  Foam::LawChoice law;
 
   void allocate();
   void gather(unsigned what) override;
