@@ -134,9 +134,10 @@ SCENES = {
     "walls 3D": dict(dim=3, before="boundary p p s"),
     "foam walls": dict(before="boundary p f p", after=WALL),
     "foam walls, rkc 3D, 2 ranks": dict(dim=3, before="boundary f p f", integrator="rkc", run="run 40", ranks=2,
-                                        after=WALL.replace("ylo yhi", "xlo xhi zlo")),
-    "foam walls for some": dict(before="boundary p f p", ranks=2, pair="drag neighbor",
-                                after="group some id 1:80\n" + WALL.replace("all", "some", 1)),
+                                        after=WALL.replace("ylo yhi", "xlo xhi zlo zhi")),
+    "foam walls for some": dict(before="boundary p f p", ranks=2,
+                                after="group some id 1:128\ngroup rest subtract all some\n"
+                                      "fix hold rest setforce 0 0 0\n" + WALL.replace(" all ", " some ", 1)),
 
     "two types": dict(edit=lambda text: text.replace("1 atom types", "2 atom types"),
                       after="set group all type/ratio 2 0.5 7\npair_coeff 2 2 2.0\n"
