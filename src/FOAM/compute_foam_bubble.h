@@ -60,7 +60,8 @@ class ComputeFoamBubble : public Compute {
   {
     using B = typename Space::Bubbles;
     space.groupbit = pair->hub.groupbit;
-    const auto gas_law = gas ? gas->exchange<D>(space, atom->nlocal) : Foam::Exchange<D>();
+    auto gas_law = gas ? gas->exchange<D>(space, atom->nlocal) : Foam::Exchange<D>();
+    gas_law.walls = pair->hub.walls_that(FoamHub::COVER, space);
     const Foam::FillDiagnostics<D, B, Masks> functor{
         space.bubbles(), mask,    groupbit | pair->hub.groupbit, out,
         wanted,          gas_law, pair->contact_sums(space)};

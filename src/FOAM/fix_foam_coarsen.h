@@ -58,12 +58,13 @@ class FixFoamCoarsen : public Fix {
     gas.Ain = mean_surface();
     if (through_films) gas.film = space.column(pair->film, 0);
     gas.area = space.column(pair->area, 0);
+    if (gas.through_liquid()) gas.walls = pair->hub.walls_that(FoamHub::COVER, space);
     using AddFreeSurface = Foam::AddFreeSurface<D, typename Space::Bubbles>;
     if (gas.through_liquid())
       gas.use(pair->hub.free_surface_known && space.reads(pair->hub.free_surface)
                   ? pair->hub.free_surface
                   : space.template sums<Foam::FreeSurface>(
-                        nlocal, AddFreeSurface{space.bubbles(), law, gas.area}));
+                        nlocal, AddFreeSurface{space.bubbles(), law, gas.area, gas.walls}));
     return gas;
   }
   template <int D> void note(const Foam::Exchange<D> &gas)    // the integrator, for its rates

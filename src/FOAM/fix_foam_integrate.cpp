@@ -240,14 +240,15 @@ void FixFoamIntegrate::compute_forces(int eflag, int vflag)
   if (modify->n_post_force_any) modify->post_force(vflag);
 }
 
-// fix enforce2d, which 2D scenes often have, sets to 0 what is 0
+// fix enforce2d, which 2D scenes often have, sets to 0 what is 0; the forces of fix foam/wall depend on the state alone
 
 bool FixFoamIntegrate::others_act() const
 {
   if (!modify->n_pre_force && !modify->n_post_force_any) return false;
   for (int m = 0; m < modify->nfix; m++)
     if ((modify->fmask[m] & (PRE_FORCE | POST_FORCE)) &&
-        !utils::strmatch(modify->fix[m]->style, "^enforce2d"))
+        !utils::strmatch(modify->fix[m]->style, "^enforce2d") &&
+        !utils::strmatch(modify->fix[m]->style, "^foam/wall"))
       return true;
   return false;
 }

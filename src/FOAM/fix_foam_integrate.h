@@ -327,6 +327,7 @@ Foam::Rates<D, typename Space::Bubbles> FixFoamIntegrate::rates(Space &space)
   Foam::Drag<D, B> drag = drag_without_contacts<D>(space);
   if (pair->mu_c > 0.0)
     for (int k = 0; k < D; k++) drag.solved[k] = space.column(solved, k);
+  drag.walls = pair->hub.walls_that(FoamHub::HOLD, space);
   if (drift_removed) {
     drag.drift = space.template sums<Foam::DriftTotals>(atom->nlocal, Foam::AddDrift<D, B>{drag});
     drag.drift_removed = true;

@@ -57,6 +57,10 @@ struct Coefficients {
   const double *sigma0;    // of a pair of types, [ntypes+1][ntypes+1]
   int ntypes;
   double Rin;
+  FOAM_FUNCTION double stiffness(int itype, int jtype) const
+  {
+    return sigma0[itype * (ntypes + 1) + jtype] * Rin;
+  }
 };
 
 struct NoTally {

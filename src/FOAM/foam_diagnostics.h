@@ -38,14 +38,14 @@ template <int D, class B, class Masks> struct FillDiagnostics {
   int groupbits;    // of the compute, and of the bubbles
   double *out;      // [n][wanted.count]
   Quantities wanted;
-  Exchange<D> gas;
+  Exchange<D> gas;    // with walls, even if there is no exchange
   ContactSums sums;
 
   FOAM_FUNCTION void operator()(int i) const
   {
     const double R = b.radius(i);
     const bool counts = (mask(i) & groupbits) == groupbits;
-    const typename Exchange<D>::Split V = gas(i, R);
+    const typename Exchange<D>::Split V = gas(b, i);
     for (int c = 0; c < wanted.count; c++)
       out[static_cast<size_t>(i) * wanted.count + c] =
           counts && R > 0.0 ? value(i, R, V, wanted.name[c]) : 0.0;
@@ -61,7 +61,7 @@ template <int D, class B, class Masks> struct FillDiagnostics {
       case Quantity::AREA:
         return sums.area[i];
       case Quantity::FREE:
-        return free_area(surface<D>(R), sums.area[i]);
+        return open_area<D>(b, i, sums.area, gas.walls);
       case Quantity::VFILM:
         return V.film;
       case Quantity::VLIQUID:

@@ -11,6 +11,7 @@
 #define LMP_FOAM_DRAG_H
 
 #include "foam_bubbles.h"
+#include "foam_wall.h"
 
 // Forces become velocities: the balance of force and drag, mu0 (v_i - u_i) = F_i, with u_i the ambient velocity,
 // that of the liquid around bubble i
@@ -47,6 +48,7 @@ template <int D, class B> struct Drag {
   bool drift_removed = false;
   const double *solved[3] =
       {};    // v - u, if bubbles in contact drag each other: foam_contact_drag.h
+  Walls walls{};    // that hold bubbles
 
   FOAM_FUNCTION double velocity(int i, int k) const
   {
@@ -54,7 +56,7 @@ template <int D, class B> struct Drag {
     const double u = ambient(i, k);
     double v = solved[0] ? solved[k][i] + u : drag_velocity(b.f(i, k), mu0, u);
     if (drift_removed && drift().bubbles > 0.0) v -= drift().velocity[k] / drift().bubbles;
-    return v;
+    return walls.hold(b, i, k, v);
   }
 };
 

@@ -11,6 +11,7 @@
 #define LMP_FOAM_GAS_H
 
 #include "foam_bubbles.h"
+#include "foam_wall.h"
 
 // Gas exchange of a bubble, from the sums over its contacts and over all bubbles
 
@@ -19,16 +20,27 @@ namespace Foam {
 // Rate of gas content: Vdot_i = K sum_j A_ij (1/R_j - 1/R_i) + c w_i (1/rho - 1/R_i),
 // see foam_physics.h
 
+// the free area of a bubble that exchanges gas with the liquid: contacts and walls cover the rest
+
+template <int D, class B>
+FOAM_FUNCTION double open_area(const B &b, int i, const double *contact_area, const Walls &walls)
+{
+  return free_area(surface<D>(b.radius(i)), contact_area[i] + walls.covered<D>(b, i));
+}
+
 // The sums over all bubbles that the second part takes
 
 struct FreeSurface {
   static constexpr int SLOT = 0;    // of the sums that stay on a device
   FoamSum bubbles, surface, weight, weight_over_R;
 
-  template <int D> FOAM_FUNCTION void add(LiquidLaw law, double R, double contact_area)
+  template <int D, class B>
+  FOAM_FUNCTION void add(LiquidLaw law, const B &b, int i, const double *area, const Walls &walls)
   {
+    const double R = b.radius(i);
     if (!(R > 0.0)) return;
-    const double A = Foam::surface<D>(R), w = liquid_weight(law, free_area(A, contact_area), R);
+    const double A = Foam::surface<D>(R),
+                 w = liquid_weight(law, open_area<D>(b, i, area, walls), R);
     bubbles += 1.0;
     surface += A;
     weight += w;
@@ -52,6 +64,7 @@ template <int D> struct Exchange {
   LiquidLaw law = LiquidLaw::AREA;
   double Rin = 0.0, Ain = 0.0;
   const double *film = nullptr, *area = nullptr;    // sums over contacts, of each bubble; or none
+  Walls walls{};                                    // that cover bubbles
 
   bool through_liquid() const { return K > 0.0 && kappa > 0.0; }
 
@@ -73,24 +86,21 @@ template <int D> struct Exchange {
     if (!all.on_device) liquid = of(all.known);
   }
 
-  FOAM_FUNCTION Split operator()(int i, double R) const
+  template <class B> FOAM_FUNCTION Split operator()(const B &b, int i) const
   {
+    const double R = b.radius(i);
     if (!(R > 0.0) || !(K > 0.0)) return {0.0, 0.0};
     Split split{film ? K * film[i] : 0.0, 0.0};
     const Liquid l = sums.on_device ? of(sums()) : liquid;
-    if (l.coefficient > 0.0)
-      split.liquid = liquid_exchange(l.coefficient, weight(i, R), l.inverse_rho, R);
+    if (l.coefficient > 0.0) {
+      const double weight = liquid_weight(law, open_area<D>(b, i, area, walls), R);
+      split.liquid = liquid_exchange(l.coefficient, weight, l.inverse_rho, R);
+    }
     return split;
   }
 
   Liquid liquid;    // if the sums are known
   Sums<FreeSurface> sums;
-
- private:
-  FOAM_FUNCTION double weight(int i, double R) const
-  {
-    return liquid_weight(law, free_area(surface<D>(R), area[i]), R);
-  }
 };
 
 template <int D, class B> struct AddFreeSurface {
@@ -98,9 +108,10 @@ template <int D, class B> struct AddFreeSurface {
   B b;
   LiquidLaw law;
   const double *area;
+  Walls walls;
   FOAM_FUNCTION void operator()(int i, FreeSurface &all) const
   {
-    all.template add<D>(law, b.radius(i), area[i]);
+    all.template add<D>(law, b, i, area, walls);
   }
 };
 

@@ -61,6 +61,11 @@ class FoamHost : protected Pointers {
     return mine;
   }
   template <class Totals, class Functor>
+  Foam::Sums<Totals> own_sums(int n, const Functor &functor) const    // of this rank
+  {
+    return {totals<Totals>(n, functor)};
+  }
+  template <class Totals, class Functor>
   Foam::Sums<Totals> sums(int n, const Functor &functor) const    // of all ranks
   {
     return {foam_sum(totals<Totals>(n, functor), world)};

@@ -84,6 +84,27 @@ bool FoamHub::integrates(const Fix *fix)
   return fix->time_integrate && utils::strmatch(fix->style, "^foam/");
 }
 
+double FoamHub::place_of(int face) const
+{
+  return (face % 2 ? domain->boxhi : domain->boxlo)[face / 2];
+}
+
+Foam::Walls FoamHub::walls_now(WallsThat act, int &group) const
+{
+  Foam::Walls found;
+  for (const Wall &wall : walls) {
+    if (act == HOLD ? wall.drag == 0.0 : !wall.covers) continue;
+    found.add(wall.face, place_of(wall.face), wall.drag, wall.of->groupbit);
+    if (wall.of->groupbit != Foam::GROUP_ALL) group = wall.of->groupbit;
+  }
+  return found;
+}
+
+void FoamHub::take_away(const Fix *fix)
+{
+  std::erase_if(walls, [=](const Wall &wall) { return wall.of == fix; });
+}
+
 // they have the same: FixFoamIntegrate::check_companions()
 
 void FoamHub::find_group()

@@ -15,6 +15,8 @@
 
 #include "pointers.h"
 
+#include <vector>
+
 namespace LAMMPS_NS {
 
 // What belongs to a foam as a whole.  The pair style has it, since every foam has one (PairFoam); fixes and computes
@@ -63,7 +65,30 @@ class FoamHub : protected Pointers {
   Foam::Sums<Foam::FreeSurface> free_surface;
   bool free_surface_known = false;
 
+  // Walls at faces of the box, of fixes foam/wall; as functors take them, where the box is now
+
+  struct Wall {
+    const class Fix *of;
+    int face;
+    double drag;
+    bool covers;
+  };
+  std::vector<Wall> walls;
+  void take_away(const class Fix *);    // its walls
+
+  enum WallsThat { HOLD, COVER };
+  template <class Space> Foam::Walls walls_that(WallsThat act, Space &space) const
+  {
+    if (walls.empty()) return {};
+    int group = Foam::GROUP_ALL;
+    Foam::Walls found = walls_now(act, group);
+    found.mask = space.members(group).mask;
+    return found;
+  }
+  double place_of(int face) const;
+
  private:
+  Foam::Walls walls_now(WallsThat, int &group) const;    // group: not all, if one has a smaller one
   const char *const style;
 };
 

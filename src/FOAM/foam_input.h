@@ -60,6 +60,12 @@ class FoamInput {
                     [=](double x) { return x > lo && x < hi; });
     }
 
+    double from_to(double lo, double hi) const    // or one of these
+    {
+      return number(fmt::format("a number >= {} and <= {}", lo, hi),
+                    [=](double x) { return x >= lo && x <= hi; });
+    }
+
     bigint count() const { return integer(0, MAXBIGINT, "an integer >= 0"); }
     int integer(int from, int to) const
     {

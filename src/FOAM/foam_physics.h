@@ -165,6 +165,33 @@ FOAM_FUNCTION double lagged_velocity(double v, double l)
   return 0.5 * (v + l);
 }
 
+// ---------------------------------------------------------------------- a bubble and a plane wall
+
+// s is the distance of the centre from the wall, negative beyond it.  They touch where s < R; the force is that of
+// the contact law (foam_law.h) for a partner that does not deform, of radius 0 at distance s.
+
+FOAM_FUNCTION double wall_overlap(double s, double R)
+{
+  return R - s;
+}
+
+// the part of the wall that the bubble covers, a disc of radius^2 = R^2 - s^2 with an area (a length in 2D) like that
+// of a contact; once the centre is beyond the wall, that of the full cross-section
+
+template <int D> FOAM_FUNCTION double wall_area(double s, double R)
+{
+  if (!(s < R)) return 0.0;
+  const double h2 = s > 0.0 ? (R - s) * (R + s) : R * R;
+  return D == 2 ? 2.0 * std::sqrt(h2) : PI * h2;
+}
+
+// a wall holds the bubbles that touch it: what it leaves of their velocity along it; wall_drag = 0 slips, 1 sticks
+
+FOAM_FUNCTION double velocity_along_wall(double v, double wall_drag)
+{
+  return (1.0 - wall_drag) * v;
+}
+
 // ---------------------------------------------------------------------- gas through the liquid
 
 // Both laws exchange gas in proportion to a weight of the free surface,

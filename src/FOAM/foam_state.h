@@ -30,9 +30,8 @@ template <int D, class B> struct Rates {
 
   FOAM_FUNCTION double qdot(int i) const
   {
-    const double R = b.radius(i);
-    const typename Exchange<D>::Split split = gas(i, R);
-    return q_rate<D>(variable, split.film + split.liquid, R);
+    const typename Exchange<D>::Split split = gas(b, i);
+    return q_rate<D>(variable, split.film + split.liquid, b.radius(i));
   }
   FOAM_FUNCTION void operator()(int i, double *f) const
   {

@@ -10,6 +10,7 @@
 #include "fix_foam_coarsen.h"
 #include "fix_foam_contacts.h"
 #include "fix_foam_rkc.h"
+#include "fix_foam_wall.h"
 #include "pair_durian_foam.h"
 
 #ifdef FOAM_KOKKOS
@@ -18,6 +19,7 @@
 #include "fix_foam_coarsen_kokkos.h"
 #include "fix_foam_contacts_kokkos.h"
 #include "fix_foam_rkc_kokkos.h"
+#include "fix_foam_wall_kokkos.h"
 #include "pair_durian_foam_kokkos.h"
 #endif
 
@@ -109,12 +111,14 @@ void lammpsplugin_init(void *lmp, void *handle, void *regfunc)
   const char *const ages = "fix foam/contacts: how long bubbles have been in contact";
   const char *const abm = "fix foam/abm: adaptive Adams-Bashforth-Moulton steps";
   const char *const rkc = "fix foam/rkc: adaptive stabilised Runge-Kutta-Chebyshev steps";
+  const char *const wall = "fix foam/wall: walls at faces of the box";
 
   pair.operator()<PairDurianFoam>("durian/foam");
   fix.operator()<FixFoamCoarsen>("foam/coarsen", coarsen);
   fix.operator()<FixFoamContacts>("foam/contacts", ages);
   fix.operator()<FixFoamABM>("foam/abm", abm);
   fix.operator()<FixFoamRKC>("foam/rkc", rkc);
+  fix.operator()<FixFoamWall>("foam/wall", wall);
   compute.operator()<ComputeFoamBubble>("foam/bubble");
 
 #ifdef FOAM_KOKKOS
@@ -126,6 +130,7 @@ void lammpsplugin_init(void *lmp, void *handle, void *regfunc)
   fix.operator()<FixFoamContactsKokkos<LMPDeviceType>>("foam/contacts/kk", ages);
   fix.operator()<FixFoamABMKokkos<LMPDeviceType>>("foam/abm/kk", abm);
   fix.operator()<FixFoamRKCKokkos<LMPDeviceType>>("foam/rkc/kk", rkc);
+  fix.operator()<FixFoamWallKokkos<LMPDeviceType>>("foam/wall/kk", wall);
   compute.operator()<ComputeFoamBubbleKokkos<LMPDeviceType>>("foam/bubble/kk");
 
   pair.operator()<PairDurianFoamKokkos<LMPDeviceType>>("durian/foam/kk/device");
@@ -133,6 +138,7 @@ void lammpsplugin_init(void *lmp, void *handle, void *regfunc)
   fix.operator()<FixFoamContactsKokkos<LMPDeviceType>>("foam/contacts/kk/device", ages);
   fix.operator()<FixFoamABMKokkos<LMPDeviceType>>("foam/abm/kk/device", abm);
   fix.operator()<FixFoamRKCKokkos<LMPDeviceType>>("foam/rkc/kk/device", rkc);
+  fix.operator()<FixFoamWallKokkos<LMPDeviceType>>("foam/wall/kk/device", wall);
   compute.operator()<ComputeFoamBubbleKokkos<LMPDeviceType>>("foam/bubble/kk/device");
 
   pair.operator()<PairDurianFoamKokkos<LMPHostType>>("durian/foam/kk/host");
@@ -140,6 +146,7 @@ void lammpsplugin_init(void *lmp, void *handle, void *regfunc)
   fix.operator()<FixFoamContactsKokkos<LMPHostType>>("foam/contacts/kk/host", ages);
   fix.operator()<FixFoamABMKokkos<LMPHostType>>("foam/abm/kk/host", abm);
   fix.operator()<FixFoamRKCKokkos<LMPHostType>>("foam/rkc/kk/host", rkc);
+  fix.operator()<FixFoamWallKokkos<LMPHostType>>("foam/wall/kk/host", wall);
   compute.operator()<ComputeFoamBubbleKokkos<LMPHostType>>("foam/bubble/kk/host");
 #endif
 

@@ -106,7 +106,6 @@ void PairDurianFoam::gather_in(const Law &chosen, unsigned what)
 {
   FoamHost space(lmp);
   const int nlocal = atom->nlocal, newton = force->newton_pair;
-  const Foam::Coefficients coefficients{sigma0[0], atom->ntypes, hub.record.rin};
   const Foam::ContactSums sums = contact_sums(space);
   const int nall = nlocal + (newton ? atom->nghost : 0);
   for (int i = 0; i < nall; i++) sums.clear(i, what);
@@ -117,7 +116,7 @@ void PairDurianFoam::gather_in(const Law &chosen, unsigned what)
     const List half{list->ilist, all ? list->numneigh : near_list.numneigh.data(),
                     all ? list->firstneigh : near_list.firstneigh.data(), nlocal};
     const Foam::ContactLoop<D, WHAT, false, Law, Foam::HostBubbles, List, T> functor{
-        space.bubbles(), half, chosen, coefficients, sums, true, what};
+        space.bubbles(), half, chosen, coefficients(), sums, true, what};
     for (int n = 0; n < list->inum; n++) functor(n, tally);
   };
   using T = std::conditional_t<(WHAT & Foam::TALLY) != 0, Tally, Foam::NoTally>;

@@ -20,6 +20,8 @@ PairStyle(durian/foam,PairDurianFoam);
 #include "foam_law.h"
 #include "pair_foam.h"
 
+#include "atom.h"
+
 namespace LAMMPS_NS {
 
 // Durian's bubble model: overlapping bubbles repel each other by a contact law (foam_laws.h)
@@ -44,11 +46,14 @@ class PairDurianFoam : public PairFoam {
   double range() const override;
   void take_list() override;
   double memory_usage() override;
+  Foam::Coefficients coefficients() const override
+  {
+    return {sigma0[0], atom->ntypes, hub.record.rin};
+  }
   void init_style() override;
 
  protected:
   double **sigma0;    // per pair of types
-  Foam::LawChoice law;
 
   FoamShortList near_list;    // where the law acts beyond contact
   bigint listed_ncalls = -1,

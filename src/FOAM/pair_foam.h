@@ -44,6 +44,11 @@ class PairFoam : public Pair {
   virtual double stiffest() const = 0;                           // largest spring constant
   virtual double range() const { return 1.0; }    // forces act at r < range (R_i + R_j)
 
+  // contact law, foam_laws.h, and its coefficients where the style runs: of walls, too
+
+  Foam::LawChoice law;
+  virtual Foam::Coefficients coefficients() const = 0;
+
   // drag, see foam_drag.h
 
   double mu0 = 1.0;              // coefficient

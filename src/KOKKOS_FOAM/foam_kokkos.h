@@ -221,8 +221,19 @@ template <class DeviceType> class FoamKokkos : protected Pointers {
   {
     int nprocs;
     MPI_Comm_size(world, &nprocs);
-    if (ON_HOST || nprocs > 1) return {foam_sum(reduce<Totals>(n, functor), world)};
-    static_assert(sizeof(Totals) <= sizeof(double) * SLOT_SIZE);
+    if (nprocs > 1) return {foam_sum(reduce<Totals>(n, functor), world)};
+    const Foam::Sums<Totals> mine = own_sums<Totals>(n, functor);
+    return mine.on_device ? mine : Foam::Sums<Totals>{foam_sum(mine.known, world)};
+  }
+
+  // of this rank: those of a device stay there
+
+  template <class Totals, class Functor>
+  Foam::Sums<Totals> own_sums(int n, const Functor &functor) const
+  {
+    if (ON_HOST) return {reduce<Totals>(n, functor)};
+    static_assert(SLOT_SIZE * Totals::SLOT * sizeof(double) + sizeof(Totals) <=
+                  SLOTS * SLOT_SIZE * sizeof(double));
     auto *const there = reinterpret_cast<Totals *>(sums_there.data() + SLOT_SIZE * Totals::SLOT);
     Kokkos::parallel_reduce(Functor::NAME, Kokkos::RangePolicy<DeviceType>(0, n),
                             FoamReduceBubbles<Functor, Totals>{functor, members(groupbit)},

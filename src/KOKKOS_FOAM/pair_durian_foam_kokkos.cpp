@@ -384,13 +384,14 @@ template <int D, unsigned WHAT, bool CHUNKS, class Loop> struct SummedContacts {
   int chunk, nlocal;
   bool clear;
   Foam::LiquidLaw law;
+  Foam::Walls walls;    // that cover bubbles
   KOKKOS_INLINE_FUNCTION void operator()(int n, Foam::FreeSurface &all) const
   {
     Contacts<WHAT, CHUNKS, Loop>{loop, chunk, nlocal, clear}(n);
     const int begin = n * chunk, end = begin + chunk < nlocal ? begin + chunk : nlocal;
     const Foam::Members member = loop.sums.members;
     for (int i = begin; i < end; i++)
-      if (member(i)) all.template add<D>(law, loop.b.radius(i), loop.sums.area[i]);
+      if (member(i)) all.template add<D>(law, loop.b, i, loop.sums.area, walls);
   }
 };
 
@@ -433,7 +434,6 @@ void PairDurianFoamKokkos<DeviceType>::gather_in(const Law &chosen, unsigned wha
   using Rows = FoamRows<DeviceType>;
   const int nlocal = atom->nlocal;
   const bool clear = fuse_force_clear_flag;
-  const Foam::Coefficients coefficients{sigma0_there.data(), atom->ntypes, hub.record.rin};
   const Foam::ContactSums sums = contact_sums(space);
 
   auto run = [&]<bool CHUNKS>() {
@@ -441,7 +441,7 @@ void PairDurianFoamKokkos<DeviceType>::gather_in(const Law &chosen, unsigned wha
     using Tally =
         std::conditional_t<(WHAT & Foam::TALLY) != 0, KokkosTally<DeviceType>, Foam::NoTally>;
     using Loop = Foam::ContactLoop<D, WHAT, !CHUNKS, Law, B, Rows, Tally>;
-    const Loop loop{space.bubbles(), rows, chosen, coefficients, sums, !clear, what};
+    const Loop loop{space.bubbles(), rows, chosen, coefficients(), sums, !clear, what};
     if constexpr (WHAT & Foam::TALLY) {
       const Tally tally{nullptr, eflag_atom != 0, vflag_atom != 0,
                         k_eatom.template view<DeviceType>(), k_vatom.template view<DeviceType>()};
@@ -452,7 +452,8 @@ void PairDurianFoamKokkos<DeviceType>::gather_in(const Law &chosen, unsigned wha
         for (int k = 0; k < 6; k++) virial[k] += all.virial[k];
     } else if constexpr ((WHAT & Foam::FORCE) && (WHAT & Foam::AREA)) {
       hub.free_surface = space.template sums<Foam::FreeSurface>(
-          n, SummedContacts<D, WHAT, CHUNKS, Loop>{loop, chunk, nlocal, clear, hub.liquid_law});
+          n, SummedContacts<D, WHAT, CHUNKS, Loop>{loop, chunk, nlocal, clear, hub.liquid_law,
+                                                   hub.walls_that(FoamHub::COVER, space)});
       hub.free_surface_known = true;
     } else
       space.for_each(n, Contacts<WHAT, CHUNKS, Loop>{loop, chunk, nlocal, clear});

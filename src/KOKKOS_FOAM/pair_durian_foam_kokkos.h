@@ -39,6 +39,10 @@ template <class DeviceType> class PairDurianFoamKokkos : public PairDurianFoam, 
   void init_style() override;
   void reinit() override;
   double memory_usage() override;
+  Foam::Coefficients coefficients() const override
+  {
+    return {sigma0_there.data(), atom->ntypes, hub.record.rin};
+  }
 
   // LAMMPS' communication on a device leaves out the radii that atom_style sphere 1 asks for
 

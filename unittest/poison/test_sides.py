@@ -28,7 +28,8 @@ NAMES = ["plain", "3D", "neighbor drag", "neighbor drag 3D on 2 ranks", "drift r
          "sorted often on 2 ranks", "cutoffs renewed on 4 ranks", "sheared, rkc, 2 ranks", "other forces",
          "viscous", "two runs", "pre no", "restarts written", "integrator again", "exchange again",
          "drag changed", "minimized", "bubbles added", "bubbles deleted", "radii changed",
-         "state stored, 2 ranks", "contact ages", "contact ages, 2 ranks", "among others",
+         "state stored, 2 ranks", "contact ages", "contact ages, 2 ranks", "foam walls",
+         "foam walls, rkc 3D, 2 ranks", "foam walls for some", "among others",
          "among others, rkc, neighbor drag, 2 ranks"]
 
 
@@ -47,7 +48,7 @@ COLUMNS = {
     "lagged velocities": "neighbor drag", "starts": "plain", "velocities of the start": "neighbor drag",
     "listed places": "plain", "work of the scheme": "source",
     "contact records": "contact ages", "contact records on trial": "contact ages",
-    "ages of contacts": "contact ages",
+    "ages of contacts": "contact ages", "stress at walls": "foam walls",
 }
 ELSEWHERE = {"residuals of places"}    # in use in single precision alone
 

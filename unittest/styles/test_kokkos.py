@@ -68,6 +68,9 @@ def test_one_step(kk_lmp, base, dim, law, pair, step, ranks):
 EXTRA = "dump_modify extra sort id format float %.17g"
 AGES = ("fix ages all foam/contacts trial yes\n"
         f"dump extra all custom 20 extra id f_ages[*]\n{EXTRA}\n")
+WALL = ("fix wall all foam/wall ylo yhi drag 0.3 cover yes\nfix_modify wall energy yes virial yes\n"
+        "compute s all stress/atom NULL virial\n"
+        f"dump extra all custom 20 extra id c_s[*]\n{EXTRA}\nfix means all ave/time 20 1 20 f_wall f_wall[*]\n")
 SHEAR = """
 variable      shift equal 0.05*f_step[1]*ly
 variable      rate equal 0.05*ly
@@ -131,6 +134,12 @@ SCENES = {
     "compressed": dict(after="fix press all deform 1 x scale 0.9 y scale 0.9 remap x"),
     "walls": dict(before="boundary s m p", ranks=2),
     "walls 3D": dict(dim=3, before="boundary p p s"),
+    "foam walls": dict(before="boundary p f p", after=WALL),
+    "foam walls, rkc 3D, 2 ranks": dict(dim=3, before="boundary f p f", integrator="rkc", run="run 40", ranks=2,
+                                        after=WALL.replace("ylo yhi", "xlo xhi zlo zhi")),
+    "foam walls for some": dict(before="boundary p f p", ranks=2,
+                                after="group some id 1:128\ngroup rest subtract all some\n"
+                                      "fix hold rest setforce 0 0 0\n" + WALL.replace(" all ", " some ", 1)),
 
     "two types": dict(edit=lambda text: text.replace("1 atom types", "2 atom types"),
                       after="set group all type/ratio 2 0.5 7\npair_coeff 2 2 2.0\n"
@@ -285,7 +294,7 @@ VERLET = {**RUN, "after": "run_style verlet/kk"}
 
 
 def with_suffix(text, suffix):
-    text = re.sub("(durian/foam|foam/(abm|coarsen|contacts|bubble))", rf"\1{suffix}", text)
+    text = re.sub("(durian/foam|foam/(abm|coarsen|contacts|wall|bubble))", rf"\1{suffix}", text)
     return text.replace("atom_style    sphere", "atom_style sphere/kk")
 
 
