@@ -37,6 +37,7 @@ void FixFoamIntegrate::initial_integrate(int)
                style);
   out.begin_step();
   atime_start = update->atime;
+  if (shear) shear->begin_step();
   if (domain->box_change) list.state_has_changed();    // the box has moved since
   if (gas && gas->changed) {                           // and no set-up has looked at it
     evaluate(0.0);
@@ -59,6 +60,7 @@ Foam::Trial FixFoamIntegrate::attempt(double step, bool first)
   double error =
       Foam::step_error(norm, totals.error, totals.squares, components, pair->hub.record.rin);
   if (totals.bad > 0.0) error = INFINITY;
+  const FoamBoxLater box(domain, shear ? step : 0.0);
   return {error, totals.moved, list.margin()};
 }
 
@@ -103,7 +105,13 @@ void FixFoamIntegrate::accept(double step)
   if (gas) remove_small();    // lets bubbles grow a little: adds to totals.ahead
 
   list.state_has_changed();
-  if (totals.ahead > list.margin()) next_reneighbor = update->ntimestep;
+  if (shear) shear->box_goes_on(step);
+  evaluated_later = 0.0;
+  {
+    const FoamBoxLater box(domain,
+                           shear ? step : 0.0);    // as ahead is, at the end of the next one
+    if (totals.ahead > list.margin()) next_reneighbor = update->ntimestep;
+  }
 
   update->atime = atime_start + step;
   update->atimestep = update->ntimestep;
@@ -182,6 +190,12 @@ void FixFoamIntegrate::take_listed()
   take_listed_in(space);
 }
 
+void FixFoamIntegrate::shift_by_images(double sign)
+{
+  FoamHost space(lmp, groupbit);
+  shift_by_images_in(space, sign);
+}
+
 double FixFoamIntegrate::largest_radius()
 {
   FoamHost space(lmp, groupbit);
@@ -228,7 +242,11 @@ void FixFoamIntegrate::evaluate(double later)
 {
   update->atime = atime_start + later;
   update->atimestep = update->ntimestep;
-  compute_forces(0, 0);
+  evaluated_later = shear ? later : 0.0;
+  {
+    const FoamBoxLater box(domain, evaluated_later);
+    compute_forces(0, 0);
+  }
   evaluations++;
   for (FoamFollower *one : followers) one->attempted(later);
 }
@@ -256,6 +274,8 @@ void FixFoamIntegrate::post_neighbor()
   listed.use(atom->nmax);
   if (lag.active) lag.v_start.use(atom->nmax);
   if (uses_work()) work.use(atom->nmax);
+  if (images_shifted) shift_by_images(-1.0);
+  images_shifted = false;
   take_listed();
   list.built();
 
@@ -272,6 +292,8 @@ void FixFoamIntegrate::post_neighbor()
 
 void FixFoamIntegrate::pre_exchange()
 {
+  if (shear) shift_by_images(1.0);
+  images_shifted = shear;
   const bool restart_due = update->ntimestep == output->next_restart;
   double mine = largest_radius(), largest;
   MPI_Allreduce(&mine, &largest, 1, MPI_DOUBLE, MPI_MAX, world);

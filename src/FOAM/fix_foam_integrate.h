@@ -12,6 +12,7 @@
 
 #include "fix.h"
 #include "fix_foam_coarsen.h"
+#include "fix_foam_flow.h"
 #include "foam_driver.h"
 #include "foam_history.h"
 #include "foam_host.h"
@@ -82,6 +83,9 @@ class FixFoamIntegrate : public Fix {
   PairFoam *pair = nullptr;
   FixFoamCoarsen *gas = nullptr;    // null: radii stay as they are
   std::vector<FoamFollower *> followers;
+  std::vector<FixFoamFlow *> flows;
+  FixFoamFlow *shear =
+      nullptr;    // the flow with a box that deforms: then evaluations see where it is
   FoamReduce<Foam::Judgement> reduce;
   FoamListGuard list;
   FoamOutput out;
@@ -133,6 +137,7 @@ class FixFoamIntegrate : public Fix {
   enum { XLISTED, YLISTED, ZLISTED, RLISTED, NLISTED };
   FoamColumns listed{all_columns, "listed places", NLISTED, STAYS};
   FoamColumns work{all_columns, "work of the scheme", 5, STAYS};    // within a step
+  FoamColumns flow{all_columns, "velocities of the liquid", 3, STAYS};
 
   // ---- what a scheme does
 
@@ -171,6 +176,7 @@ class FixFoamIntegrate : public Fix {
     return {state(space)};
   }
   template <int D, class Space> Foam::Rates<D, typename Space::Bubbles> rates(Space &space);
+  template <class Space> void take_flow(Space &space);
 
   // ---- the loops over bubbles
 
@@ -181,6 +187,7 @@ class FixFoamIntegrate : public Fix {
   virtual void take_listed();
   virtual double largest_radius();    // on this rank
   virtual double count_bubbles();     // of this rank
+  virtual void shift_by_images(double sign);
   virtual void compute_forces(int eflag, int vflag);
 
   // set-up works on the host: bubbles there are up to date after the first, and on the device
@@ -197,17 +204,20 @@ class FixFoamIntegrate : public Fix {
   template <class Space> void take_listed_in(Space &);
   template <class Space> double largest_radius_in(Space &);
   template <class Space> double count_bubbles_in(Space &);
+  template <class Space> void shift_by_images_in(Space &, double sign);
 
  private:
-  bool ghosts_checked = false;    // their radii are communicated
-  bool lag_given = false;         // to LAMMPS' own evaluation before a run
-  double atime_start = 0.0;       // LAMMPS' time at the start of the step
-  double accepted_then = 0.0;     // steps before this run
-  double time_then = 0.0;         // t when LAMMPS' fixes were initialised last
-  bool deform_told = false;       // what its styles make of changing steps
-  bool idle_told = false;         // that no gas is exchanged
-  bool others_told = false;       // that some particles with a radius are no bubbles
-  Foam::Judgement totals;         // of a candidate, over all ranks
+  bool ghosts_checked = false;     // their radii are communicated
+  bool lag_given = false;          // to LAMMPS' own evaluation before a run
+  double atime_start = 0.0;        // LAMMPS' time at the start of the step
+  double evaluated_later = 0.0;    // than the present box, the last evaluation
+  bool images_shifted = false;     // velocities, see shift_by_images()
+  double accepted_then = 0.0;      // steps before this run
+  double time_then = 0.0;          // t when LAMMPS' fixes were initialised last
+  bool deform_told = false;        // what its styles make of changing steps
+  bool idle_told = false;          // that no gas is exchanged
+  bool others_told = false;        // that some particles with a radius are no bubbles
+  Foam::Judgement totals;          // of a candidate, over all ranks
 
   std::map<tagint, std::array<double, 3>> places;    // of a triclinic box, before set-up
 
@@ -220,6 +230,7 @@ class FixFoamIntegrate : public Fix {
   struct ChangeOfRates;
   template <int D> ChangeOfRates change_of_rates();
   void give_lag();
+  void take_image(int i, const double *x_before);
   void take_population();
   void remove_small();
   bool history_at_accept() const;
@@ -272,6 +283,10 @@ Foam::Rates<D, typename Space::Bubbles> FixFoamIntegrate::rates(Space &space)
   Foam::Drag<D, B> drag{space.bubbles(), pair->mu0};
   if (pair->neighbor_drag)
     drag.ambient = {sums.contacts, {sums.vsum[0], sums.vsum[1], sums.vsum[2]}};
+  if (!flows.empty()) {
+    take_flow(space);
+    for (int k = 0; k < 3; k++) drag.ambient.flow[k] = space.column(flow, k);
+  }
   if (drift_removed) {
     drag.drift = space.template sums<Foam::DriftTotals>(atom->nlocal, Foam::AddDrift<D, B>{drag});
     drag.drift_removed = true;
@@ -284,6 +299,29 @@ Foam::Rates<D, typename Space::Bubbles> FixFoamIntegrate::rates(Space &space)
     gas->note(f.gas);
   }
   return f;
+}
+
+// The velocity of the liquid around the bubbles as they were evaluated last.  What one flow has to be asked on the
+// host, all are.
+
+template <class Space> void FixFoamIntegrate::take_flow(Space &space)
+{
+  flow.use(atom->nmax);
+  const FoamBoxLater box(domain, evaluated_later);
+  auto fill = [&](auto &where) {
+    const Foam::FlowVelocity all{
+        {where.column(flow, 0), where.column(flow, 1), where.column(flow, 2)}};
+    where.for_each(atom->nlocal, Foam::ClearFlow{all});
+    for (FixFoamFlow *one : flows) one->fill(where, flow);
+  };
+  bool host = false;
+  for (const FixFoamFlow *one : flows) host = host || one->on_host();
+  if (host) {
+    host_reads();
+    FoamHost there(lmp, groupbit);
+    fill(there);
+  } else
+    fill(space);
 }
 
 // The equations as a scheme sees them: foam_scheme.h
@@ -318,7 +356,7 @@ template <int D, class Space> class FixFoamIntegrate::System {
   }
   template <class T> T reduce(const T &mine) { return foam_reduce(mine, fix.world); }
   double length() const { return fix.pair->hub.record.rin; }
-  bool moves_by_itself() const { return fix.domain->box_change; }
+  bool moves_by_itself() const { return fix.domain->box_change && !fix.shear; }
   bool others_act() const { return fix.others_act(); }
   bool lags() const { return fix.lag.active; }
 };
@@ -370,6 +408,22 @@ template <class Space> double FixFoamIntegrate::largest_radius_in(Space &space)
 template <class Space> double FixFoamIntegrate::count_bubbles_in(Space &space)
 {
   return space.template totals<FoamSum>(atom->nlocal, Foam::CountBubbles());
+}
+
+template <class Space> void FixFoamIntegrate::shift_by_images_in(Space &space, double sign)
+{
+  using B = typename Space::Bubbles;
+  auto before = [&](int k) {
+    return has_history() ? space.column(columns, VX_BEFORE + k) : nullptr;
+  };
+  Foam::with_dimension(dim, [&]<int D>() {
+    const Foam::ShiftByImages<D, B> functor{space.bubbles(),
+                                            space.images(),
+                                            foam_affine_flow(domain),
+                                            {before(0), before(1), before(2)},
+                                            sign};
+    space.for_each(atom->nlocal, functor);
+  });
 }
 
 }    // namespace LAMMPS_NS

@@ -9,6 +9,7 @@
 #include "fix_foam_abm.h"
 #include "fix_foam_coarsen.h"
 #include "fix_foam_contacts.h"
+#include "fix_foam_flow.h"
 #include "fix_foam_rkc.h"
 #include "pair_durian_foam.h"
 
@@ -17,6 +18,7 @@
 #include "fix_foam_abm_kokkos.h"
 #include "fix_foam_coarsen_kokkos.h"
 #include "fix_foam_contacts_kokkos.h"
+#include "fix_foam_flow_kokkos.h"
 #include "fix_foam_rkc_kokkos.h"
 #include "pair_durian_foam_kokkos.h"
 #endif
@@ -107,12 +109,14 @@ void lammpsplugin_init(void *lmp, void *handle, void *regfunc)
   };
   const char *const coarsen = "fix foam/coarsen: gas exchange between bubbles";
   const char *const ages = "fix foam/contacts: how long bubbles have been in contact";
+  const char *const flow = "fix foam/flow: a flow of the liquid between the bubbles";
   const char *const abm = "fix foam/abm: adaptive Adams-Bashforth-Moulton steps";
   const char *const rkc = "fix foam/rkc: adaptive stabilised Runge-Kutta-Chebyshev steps";
 
   pair.operator()<PairDurianFoam>("durian/foam");
   fix.operator()<FixFoamCoarsen>("foam/coarsen", coarsen);
   fix.operator()<FixFoamContacts>("foam/contacts", ages);
+  fix.operator()<FixFoamFlow>("foam/flow", flow);
   fix.operator()<FixFoamABM>("foam/abm", abm);
   fix.operator()<FixFoamRKC>("foam/rkc", rkc);
   compute.operator()<ComputeFoamBubble>("foam/bubble");
@@ -124,6 +128,7 @@ void lammpsplugin_init(void *lmp, void *handle, void *regfunc)
   pair.operator()<PairDurianFoamKokkos<LMPDeviceType>>("durian/foam/kk");
   fix.operator()<FixFoamCoarsenKokkos<LMPDeviceType>>("foam/coarsen/kk", coarsen);
   fix.operator()<FixFoamContactsKokkos<LMPDeviceType>>("foam/contacts/kk", ages);
+  fix.operator()<FixFoamFlowKokkos<LMPDeviceType>>("foam/flow/kk", flow);
   fix.operator()<FixFoamABMKokkos<LMPDeviceType>>("foam/abm/kk", abm);
   fix.operator()<FixFoamRKCKokkos<LMPDeviceType>>("foam/rkc/kk", rkc);
   compute.operator()<ComputeFoamBubbleKokkos<LMPDeviceType>>("foam/bubble/kk");
@@ -131,6 +136,7 @@ void lammpsplugin_init(void *lmp, void *handle, void *regfunc)
   pair.operator()<PairDurianFoamKokkos<LMPDeviceType>>("durian/foam/kk/device");
   fix.operator()<FixFoamCoarsenKokkos<LMPDeviceType>>("foam/coarsen/kk/device", coarsen);
   fix.operator()<FixFoamContactsKokkos<LMPDeviceType>>("foam/contacts/kk/device", ages);
+  fix.operator()<FixFoamFlowKokkos<LMPDeviceType>>("foam/flow/kk/device", flow);
   fix.operator()<FixFoamABMKokkos<LMPDeviceType>>("foam/abm/kk/device", abm);
   fix.operator()<FixFoamRKCKokkos<LMPDeviceType>>("foam/rkc/kk/device", rkc);
   compute.operator()<ComputeFoamBubbleKokkos<LMPDeviceType>>("foam/bubble/kk/device");
@@ -138,6 +144,7 @@ void lammpsplugin_init(void *lmp, void *handle, void *regfunc)
   pair.operator()<PairDurianFoamKokkos<LMPHostType>>("durian/foam/kk/host");
   fix.operator()<FixFoamCoarsenKokkos<LMPHostType>>("foam/coarsen/kk/host", coarsen);
   fix.operator()<FixFoamContactsKokkos<LMPHostType>>("foam/contacts/kk/host", ages);
+  fix.operator()<FixFoamFlowKokkos<LMPHostType>>("foam/flow/kk/host", flow);
   fix.operator()<FixFoamABMKokkos<LMPHostType>>("foam/abm/kk/host", abm);
   fix.operator()<FixFoamRKCKokkos<LMPHostType>>("foam/rkc/kk/host", rkc);
   compute.operator()<ComputeFoamBubbleKokkos<LMPHostType>>("foam/bubble/kk/host");

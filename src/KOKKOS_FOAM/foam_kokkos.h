@@ -178,6 +178,11 @@ template <class DeviceType> class FoamKokkos : protected Pointers {
     atomKK->sync(SPACE, MASK_MASK);
     return {atomKK->k_mask.view<DeviceType>().data(), group};
   }
+  const imageint *images() const
+  {
+    atomKK->sync(SPACE, IMAGE_MASK);
+    return atomKK->k_image.view<DeviceType>().data();
+  }
   static double *column(FoamColumns &columns, int c) { return columns.on_device(c); }
   static void keep(const FoamColumnList &all)
   {
@@ -229,7 +234,10 @@ template <class DeviceType> class FoamKokkos : protected Pointers {
                             FoamJoin<Totals, typename DeviceType::memory_space>(there));
     return {{}, there};
   }
-  template <class Totals> static bool reads(const Foam::Sums<Totals> &) { return true; }
+  template <class Totals> static bool reads(const Foam::Sums<Totals> &)
+  {
+    return true;
+  }
   template <class Totals> static Totals fetch(const Totals *there)
   {
     using Here = Kokkos::View<Totals, Kokkos::HostSpace, Kokkos::MemoryUnmanaged>;
