@@ -186,8 +186,8 @@ void FixFoamFlow::fill_field(FoamColumns &u)
 ------------------------------------------------------------------------- */
 
 // The rates of its style variable fix deform has only told once it has acted, and whether it moves bubbles, too, it
-// tells nobody.  So it acts now, where it changes nothing but what is put back, on a box that is a bit off: and
-// bubbles must stay.  Styles that add up what they do step by step see no time pass.
+// tells nobody.  So it acts now, where it changes nothing but what is put back: on a box that is a bit off bubbles must
+// stay, and the present one gives the rates.  Styles that add up what they do step by step see no time pass.
 
 void FixFoamFlow::begin_run()
 {
@@ -210,6 +210,8 @@ void FixFoamFlow::begin_run()
   update->dt = 0.0;
   off.put(domain);
   deform()->end_of_step();
+  now.put(domain);
+  deform()->end_of_step();    // rates may depend on the size of the box
   now.put(domain);
   update->dt = dt;
   for (double *rate : {&domain->h_rate[0], &domain->h_rate[1], &domain->h_rate[2]})

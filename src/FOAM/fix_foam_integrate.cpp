@@ -55,6 +55,7 @@ void FixFoamIntegrate::initial_integrate(int)
 
 Foam::Trial FixFoamIntegrate::attempt(double step, bool first)
 {
+  step_tried = step;
   totals = reduce(candidate(step, first));
   const double components = (totals.bubbles + totals.removed) * (dim + (grows() ? 1 : 0));
   double error =

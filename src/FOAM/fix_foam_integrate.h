@@ -211,13 +211,14 @@ class FixFoamIntegrate : public Fix {
   bool lag_given = false;          // to LAMMPS' own evaluation before a run
   double atime_start = 0.0;        // LAMMPS' time at the start of the step
   double evaluated_later = 0.0;    // than the present box, the last evaluation
-  bool images_shifted = false;     // velocities, see shift_by_images()
-  double accepted_then = 0.0;      // steps before this run
-  double time_then = 0.0;          // t when LAMMPS' fixes were initialised last
-  bool deform_told = false;        // what its styles make of changing steps
-  bool idle_told = false;          // that no gas is exchanged
-  bool others_told = false;        // that some particles with a radius are no bubbles
-  Foam::Judgement totals;          // of a candidate, over all ranks
+  double step_tried = 0.0;
+  bool images_shifted = false;    // velocities, see shift_by_images()
+  double accepted_then = 0.0;     // steps before this run
+  double time_then = 0.0;         // t when LAMMPS' fixes were initialised last
+  bool deform_told = false;       // what its styles make of changing steps
+  bool idle_told = false;         // that no gas is exchanged
+  bool others_told = false;       // that some particles with a radius are no bubbles
+  Foam::Judgement totals;         // of a candidate, over all ranks
 
   std::map<tagint, std::array<double, 3>> places;    // of a triclinic box, before set-up
 
@@ -267,6 +268,8 @@ template <class Space> Foam::State<typename Space::Bubbles> FixFoamIntegrate::st
   s.grows = grows();
   s.variable = variable;
   s.range = pair->range();
+  s.box_moves = shear != nullptr;
+  if (shear) s.listed_now = list.moved_by_box(evaluated_later);
   s.q_unit = Foam::with_dimension(
       dim, [&]<int D>() { return Foam::slope_of_q<D>(variable, pair->hub.record.rin); });
   return s;
@@ -320,6 +323,7 @@ template <class Space> void FixFoamIntegrate::take_flow(Space &space)
     host_reads();
     FoamHost there(lmp, groupbit);
     fill(there);
+    space.bubbles();    // functors will write to them here, as was said before the host read
   } else
     fill(space);
 }
@@ -340,7 +344,15 @@ template <int D, class Space> class FixFoamIntegrate::System {
 
   Fields fields() { return fix.fields<D>(space); }
   Foam::Rates<D, B> rates() { return fix.rates<D>(space); }
-  Foam::Judge<D, B> judge() { return {fields(), fix.gas ? fix.gas->smallest_radius() : 0.0}; }
+  Foam::Judge<D, B> judge()
+  {
+    Fields candidate = fields();
+    if (fix.shear) {
+      candidate.listed_now = fix.list.moved_by_box(fix.step_tried);
+      candidate.listed_ahead = fix.list.moved_by_box(2.0 * fix.step_tried);
+    }
+    return {candidate, fix.gas ? fix.gas->smallest_radius() : 0.0};
+  }
   Foam::Work<Fields> work()
   {
     Foam::Work<Fields> w;

@@ -142,6 +142,7 @@ void FixFoamIntegrate::init()
       if (found->moves_box() && !shear) shear = found;
     }
   }
+  list.goes_with_box = shear;
   check_companions();
   time_then = driver.time;
   if (record.rin > 0.0) pair->hub.go_on_from(record);

@@ -22,8 +22,7 @@ namespace Foam {
 
 struct AmbientVelocity {
   const double *contacts = nullptr, *vsum[3] = {};    // sums over contacts, or none
-  const double *flow[3] =
-      {};    // of bubbles of this rank, NaN where none is imposed; or none at all
+  const double *flow[3] = {};    // columns for this rank's bubbles, NaN: none is imposed there
 
   FOAM_FUNCTION bool imposed(int i) const { return flow[0] && flow[0][i] == flow[0][i]; }
   FOAM_FUNCTION double operator()(int i, int k) const

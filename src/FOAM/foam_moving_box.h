@@ -22,8 +22,9 @@ namespace LAMMPS_NS {
 // where it is then
 
 struct FoamBoxShape {
-  double lo[3], hi[3], yz, xz, xy;
+  double lo[3] = {0.0, 0.0, 0.0}, hi[3] = {1.0, 1.0, 1.0}, yz = 0.0, xz = 0.0, xy = 0.0;
 
+  FoamBoxShape() = default;
   explicit FoamBoxShape(const Domain *domain) : yz(domain->yz), xz(domain->xz), xy(domain->xy)
   {
     std::copy_n(domain->boxlo, 3, lo);
@@ -77,6 +78,26 @@ class FoamBoxLater {
     if (moved) now.put(domain);
   }
 };
+
+inline Foam::AffineMap foam_affine_map(const FoamBoxShape &from, const FoamBoxShape &to)
+{
+  Foam::AffineMap map;
+  double a[3], b[3], inverse[3];    // sides
+  for (int k = 0; k < 3; k++) {
+    map.from[k] = from.lo[k];
+    map.to[k] = to.lo[k];
+    a[k] = from.hi[k] - from.lo[k];
+    b[k] = to.hi[k] - to.lo[k];
+    map.m[k] = b[k] / a[k];
+  }
+  inverse[0] = -from.yz / (a[1] * a[2]);    // yz, xz, xy of the inverse
+  inverse[1] = (from.xy * from.yz - from.xz * a[1]) / (a[0] * a[1] * a[2]);
+  inverse[2] = -from.xy / (a[0] * a[1]);
+  map.m[3] = b[1] * inverse[0] + to.yz / a[2];
+  map.m[4] = b[0] * inverse[1] + to.xy * inverse[0] + to.xz / a[2];
+  map.m[5] = b[0] * inverse[2] + to.xy / a[1];
+  return map;
+}
 
 inline Foam::AffineFlow foam_affine_flow(const Domain *domain)
 {

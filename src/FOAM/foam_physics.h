@@ -167,6 +167,29 @@ struct AffineFlow {
   }
 };
 
+// where a box that has deformed has taken a place to, if nothing else moved it
+
+struct AffineMap {
+  double from[3], to[3], m[6];    // to + M (x - from)
+
+  FOAM_FUNCTION double operator()(const double *x, int k) const
+  {
+    const double d[3] = {x[0] - from[0], x[1] - from[1], x[2] - from[2]};
+    if (k == 0) return to[0] + m[0] * d[0] + m[5] * d[1] + m[4] * d[2];
+    return k == 1 ? to[1] + m[1] * d[1] + m[3] * d[2] : to[2] + m[2] * d[2];
+  }
+
+  // the most by which a distance has changed, per its length: at most the norm of M - 1
+
+  double strain(int dimension) const
+  {
+    double square = m[5] * m[5];
+    if (dimension == 3) square += m[3] * m[3] + m[4] * m[4];
+    for (int k = 0; k < dimension; k++) square += (m[k] - 1.0) * (m[k] - 1.0);
+    return std::sqrt(square);
+  }
+};
+
 // what drag takes from a bubble that does not move with its liquid, per time and direction
 
 FOAM_FUNCTION double dissipated(double mu0, double v, double u)
