@@ -142,6 +142,14 @@ void FixFoamFlow::setup(int)
    u_i
 ------------------------------------------------------------------------- */
 
+// Region::surface() is for particles on the side of the region itself
+
+bool FixFoamFlow::touches(double *x, double R)
+{
+  if (region->dynamic) region->inverse_transform(x[0], x[1], x[2]);
+  return region->interior ? region->surface_exterior(x, R) : region->surface_interior(x, R);
+}
+
 void FixFoamFlow::fill_region(FoamColumns &u)
 {
   double *const columns[3] = {u[0], u[1], u[2]};
@@ -150,8 +158,7 @@ void FixFoamFlow::fill_region(FoamColumns &u)
     if (!(atom->mask[i] & groupbit)) continue;
     double x[3] = {atom->x[i][0], atom->x[i][1], atom->x[i][2]};
     domain->remap(x);    // between two list builds bubbles may be beyond a boundary
-    if (region->match(x[0], x[1], x[2]) ||
-        (touching && region->surface(x[0], x[1], x[2], atom->radius[i]) > 0))
+    if (region->match(x[0], x[1], x[2]) || (touching && touches(x, atom->radius[i])))
       for (int k = 0; k < 3; k++) columns[k][i] = velocity[k];
   }
 }

@@ -79,6 +79,7 @@ class FixFoamFlow : public Fix {
 
   class Fix *deform() const;
   void check_foam();
+  bool touches(double *x, double R);
   void fill_region(FoamColumns &);
   void fill_field(FoamColumns &);
   void fill_on_host(FoamColumns &u) { kind == Kind::REGION ? fill_region(u) : fill_field(u); }

@@ -62,7 +62,7 @@ def test_region(lmp, step, touch):
 
 
 def test_group(lmp):
-    x, R = [[2.0, 5.0], [2.0, 8.0]], np.ones(2)
+    x, R = [[1.0, 5.0], [3.0, 8.0]], np.full(2, 0.5)
     result = run(lmp, x, R, """
 group         one id 1
 region        r block 0 4 0 10 -1 1
@@ -191,7 +191,7 @@ def sheared_foam(lmp, integrator, step, ranks=1, n=12, run="run 60", after="", *
 @pytest.mark.parametrize("ranks", [1, 2])
 def test_foam_in_a_shear(lmp, step, ranks):
     """Springs sum to zero, and so does v - u; and what the fix says is that of the state."""
-    result = sheared_foam(lmp, step, "1e-3", ranks, after="thermo_style custom step time f_flow[*] f_step[7]")
+    result = sheared_foam(lmp, step, "1e-3", ranks, after=f"thermo_style custom step time f_flow[*] f_step[7]\n{PRECISE}")
     frames, table = result.dump("dump"), result.thermo[0]
     for n, frame in enumerate(frames):
         u = RATE * frame["y"]
@@ -298,7 +298,7 @@ def test_back_ends(kk_lmp, backends, step, flow, dim):
 
     def go(lmp, ranks):
         text = case(dim, integrator=step, gas="0.1 0.3 rmin 0.4", run="run 40" if step == "abm" else "run 12",
-                    after=FLOWS[flow] + "\nthermo_style custom step atoms time pe f_gas[*] f_step[*] f_flow[*]",
+                    after=FLOWS[flow] + "\nthermo_style custom step atoms time pe f_gas[*] f_step[*] f_flow[*]\n" + PRECISE,
                     every=10)
         return lmp(tilted(text) if flow == "shear" else text, files={"data": data_file([box] * dim, x, R)},
                    ranks=ranks).thermo[0]
