@@ -112,6 +112,24 @@ def test_alone_in_a_shear(lmp, step, ranks):
     assert frame.time > 30.0
 
 
+@pytest.mark.parametrize("step", STEPS)
+@pytest.mark.parametrize("ranks", [1, 2])
+@pytest.mark.parametrize("what", ["run 80", "run 2\n" * 40])
+def test_over_the_moving_boundary(lmp, step, ranks, what):
+    """A force drives bubbles over the boundary that moves, in a run or between two: y = y0 + t / 2 and
+    x = x0 + rate (y0 t + t^2 / 4), which steps of order 2 have to rounding. A history with the velocity of another
+    image would be an error of 1, and steps refused; only the first, which has none, has an error."""
+    x, R = np.array([[5.0, 9.5], [2.0, 2.0], [1.0, 5.0]]), np.full(3, 0.5)
+    h = "1e-3 dt0 0.2 dtmax 0.2" + (" spectral 1.0" if step == "rkc" else "")
+    flow = SHEAR + "fix pull all addforce 0.0 0.5 0.0"
+    result = run(lmp, x, R, flow, step=f"{step} {h}", tilted=True, ranks=ranks, what=what)
+    for frame in result.dump("dump"):
+        t = frame.time
+        assert frame["yu"] == pytest.approx(x[:, 1] + 0.5 * t, abs=1e-11)
+        assert frame["xu"] == pytest.approx(x[:, 0] + RATE * (x[:, 1] * t + 0.25 * t**2), abs=1e-10)
+    assert t == pytest.approx(16.0) and result.thermo[-1]["f_step[4]"][-1] == 0
+
+
 @pytest.mark.parametrize("dim", [2, 3])
 @pytest.mark.parametrize("step", STEPS)
 def test_squeezed_without_forces(lmp, dim, step):
