@@ -37,6 +37,7 @@ void FixFoamIntegrate::initial_integrate(int)
                style);
   out.begin_step();
   atime_start = update->atime;
+  if (shear) shear->begin_step();
   if (domain->box_change) list.state_has_changed();    // the box has moved since
   if (gas && gas->changed) {                           // and no set-up has looked at it
     evaluate(0.0);
@@ -54,11 +55,13 @@ void FixFoamIntegrate::initial_integrate(int)
 
 Foam::Trial FixFoamIntegrate::attempt(double step, bool first)
 {
+  step_tried = step;
   totals = reduce(candidate(step, first));
   const double components = (totals.bubbles + totals.removed) * (dim + (grows() ? 1 : 0));
   double error =
       Foam::step_error(norm, totals.error, totals.squares, components, pair->hub.record.rin);
   if (totals.bad > 0.0) error = INFINITY;
+  const FoamBoxLater box(domain, shear ? step : 0.0);
   return {error, totals.moved, list.margin()};
 }
 
@@ -103,7 +106,13 @@ void FixFoamIntegrate::accept(double step)
   if (gas) remove_small();    // lets bubbles grow a little: adds to totals.ahead
 
   list.state_has_changed();
-  if (totals.ahead > list.margin()) next_reneighbor = update->ntimestep;
+  if (shear) shear->box_goes_on(step);
+  evaluated_later = 0.0;
+  {
+    const FoamBoxLater box(domain,
+                           shear ? step : 0.0);    // as ahead is, at the end of the next one
+    if (totals.ahead > list.margin()) next_reneighbor = update->ntimestep;
+  }
 
   update->atime = atime_start + step;
   update->atimestep = update->ntimestep;
@@ -213,6 +222,12 @@ void FixFoamIntegrate::count_solution(int found)
   products += found;
 }
 
+void FixFoamIntegrate::shift_by_images(double sign)
+{
+  FoamHost space(lmp, groupbit);
+  shift_by_images_in(space, sign);
+}
+
 double FixFoamIntegrate::largest_radius()
 {
   FoamHost space(lmp, groupbit);
@@ -260,7 +275,11 @@ void FixFoamIntegrate::evaluate(double later)
 {
   update->atime = atime_start + later;
   update->atimestep = update->ntimestep;
-  compute_forces(0, 0);
+  evaluated_later = shear ? later : 0.0;
+  {
+    const FoamBoxLater box(domain, evaluated_later);
+    compute_forces(0, 0);
+  }
   solve_drag();
   evaluations++;
   for (FoamFollower *one : followers) one->attempted(later);
@@ -290,6 +309,8 @@ void FixFoamIntegrate::post_neighbor()
   listed.use(atom->nmax);
   if (lag.active) lag.v_start.use(atom->nmax);
   if (uses_work()) work.use(atom->nmax);
+  if (images_shifted) shift_by_images(-1.0);
+  images_shifted = false;
   take_listed();
   list.built();
 
@@ -306,6 +327,8 @@ void FixFoamIntegrate::post_neighbor()
 
 void FixFoamIntegrate::pre_exchange()
 {
+  if (shear) shift_by_images(1.0);
+  images_shifted = shear;
   const bool restart_due = update->ntimestep == output->next_restart;
   double mine = largest_radius(), largest;
   MPI_Allreduce(&mine, &largest, 1, MPI_DOUBLE, MPI_MAX, world);

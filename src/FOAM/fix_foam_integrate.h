@@ -13,6 +13,7 @@
 #include "fix.h"
 #include "fix_foam_coarsen.h"
 #include "foam_contact_drag.h"
+#include "fix_foam_flow.h"
 #include "foam_driver.h"
 #include "foam_history.h"
 #include "foam_host.h"
@@ -83,6 +84,9 @@ class FixFoamIntegrate : public Fix {
   PairFoam *pair = nullptr;
   FixFoamCoarsen *gas = nullptr;    // null: radii stay as they are
   std::vector<FoamFollower *> followers;
+  std::vector<FixFoamFlow *> flows;
+  FixFoamFlow *shear =
+      nullptr;    // the flow with a box that deforms: then evaluations see where it is
   FoamReduce<Foam::Judgement> reduce;
   FoamListGuard list;
   FoamOutput out;
@@ -138,6 +142,7 @@ class FixFoamIntegrate : public Fix {
   FoamColumns listed{all_columns, "listed places", NLISTED, STAYS};
   FoamColumns residual{all_columns, "residuals of the drag", 3, STAYS};
   FoamColumns work{all_columns, "work of the scheme", 5, STAYS};    // within a step
+  FoamColumns flow{all_columns, "velocities of the liquid", 3, STAYS};
 
   // ---- what a scheme does
 
@@ -181,6 +186,7 @@ class FixFoamIntegrate : public Fix {
     return {state(space)};
   }
   template <int D, class Space> Foam::Rates<D, typename Space::Bubbles> rates(Space &space);
+  template <class Space> void take_flow(Space &space);
 
   // ---- the loops over bubbles
 
@@ -191,6 +197,7 @@ class FixFoamIntegrate : public Fix {
   virtual void take_listed();
   virtual double largest_radius();    // on this rank
   virtual double count_bubbles();     // of this rank
+  virtual void shift_by_images(double sign);
   virtual void compute_forces(int eflag, int vflag);
   virtual void solve_drag();    // where bubbles in contact drag each other; after each evaluation
 
@@ -211,11 +218,15 @@ class FixFoamIntegrate : public Fix {
   template <class Space> void solve_drag_in(Space &);
   template <int D, class Space>
   Foam::Drag<D, typename Space::Bubbles> drag_without_contacts(Space &);
+  template <class Space> void shift_by_images_in(Space &, double sign);
 
  private:
-  bool ghosts_checked = false;    // their radii are communicated
-  bool lag_given = false;         // to LAMMPS' own evaluation before a run
-  double atime_start = 0.0;       // LAMMPS' time at the start of the step
+  bool ghosts_checked = false;     // their radii are communicated
+  bool lag_given = false;          // to LAMMPS' own evaluation before a run
+  double atime_start = 0.0;        // LAMMPS' time at the start of the step
+  double evaluated_later = 0.0;    // than the present box, the last evaluation
+  double step_tried = 0.0;
+  bool images_shifted = false;    // velocities, see shift_by_images()
   double accepted_then = 0.0;     // steps before this run
   double time_then = 0.0;         // t when LAMMPS' fixes were initialised last
   bool deform_told = false;       // what its styles make of changing steps
@@ -234,6 +245,7 @@ class FixFoamIntegrate : public Fix {
   struct ChangeOfRates;
   template <int D> ChangeOfRates change_of_rates();
   void give_lag();
+  void take_image(int i, const double *x_before);
   void take_population();
   void remove_small();
   bool history_at_accept() const;
@@ -272,6 +284,8 @@ template <class Space> Foam::State<typename Space::Bubbles> FixFoamIntegrate::st
   s.grows = grows();
   s.variable = variable;
   s.range = pair->range();
+  s.box_moves = shear != nullptr;
+  if (shear) s.listed_now = list.moved_by_box(evaluated_later);
   s.q_unit = Foam::with_dimension(
       dim, [&]<int D>() { return Foam::slope_of_q<D>(variable, pair->hub.record.rin); });
   return s;
@@ -284,6 +298,8 @@ Foam::Drag<D, typename Space::Bubbles> FixFoamIntegrate::drag_without_contacts(S
   Foam::Drag<D, typename Space::Bubbles> drag{space.bubbles(), pair->mu0};
   if (pair->neighbor_drag)
     drag.ambient = {sums.contacts, {sums.vsum[0], sums.vsum[1], sums.vsum[2]}};
+  if (!flows.empty())
+    for (int k = 0; k < 3; k++) drag.ambient.flow[k] = space.column(flow, k);
   return drag;
 }
 
@@ -291,6 +307,7 @@ template <class Space> void FixFoamIntegrate::solve_drag_in(Space &space)
 {
   using B = typename Space::Bubbles;
   if (!(pair->mu_c > 0.0)) return;
+  if (!flows.empty()) take_flow(space);
   auto columns = [&](FoamColumns &from, double **to) {
     from.use(atom->nmax);
     for (int k = 0; k < 3; k++) to[k] = space.column(from, k);
@@ -308,8 +325,22 @@ template <class Space> void FixFoamIntegrate::solve_drag_in(Space &space)
     columns(solved, s.w);
     columns(residual, s.r);
     columns(pair->given, s.p);
+    auto gather = [&] {
+      pair->send_given();
+      pair->sum_given();
+    };
+    auto gather_ambient = [&] {    // the flow with the box is that of each image's own place
+      if (!shear) return gather();
+      const FoamBoxLater box(domain, evaluated_later);
+      const Foam::AddAffine<D, B> affine{
+          space.bubbles(), foam_affine_flow(domain), {s.p[0], s.p[1], s.p[2]}, 1.0};
+      space.for_each(atom->nlocal, affine.reversed());
+      pair->send_given();
+      space.for_all(atom->nlocal + atom->nghost, affine);
+      pair->sum_given();
+    };
     return Foam::solve_contact_drag(
-        s, space, atom->nlocal, error_of_drag(), [&] { pair->gather_given(); }, false, [] {},
+        s, space, atom->nlocal, error_of_drag(), gather, !flows.empty(), gather_ambient,
         [&](const auto &functor) {
           return foam_sum(space.template totals<Foam::DragTotals>(atom->nlocal, functor), world);
         });
@@ -324,6 +355,7 @@ template <int D, class Space>
 Foam::Rates<D, typename Space::Bubbles> FixFoamIntegrate::rates(Space &space)
 {
   using B = typename Space::Bubbles;
+  if (!flows.empty() && !(pair->mu_c > 0.0)) take_flow(space);    // else solve_drag() has
   Foam::Drag<D, B> drag = drag_without_contacts<D>(space);
   if (pair->mu_c > 0.0)
     for (int k = 0; k < D; k++) drag.solved[k] = space.column(solved, k);
@@ -342,6 +374,30 @@ Foam::Rates<D, typename Space::Bubbles> FixFoamIntegrate::rates(Space &space)
   return f;
 }
 
+// The velocity of the liquid around the bubbles as they were evaluated last.  What one flow has to be asked on the
+// host, all are.
+
+template <class Space> void FixFoamIntegrate::take_flow(Space &space)
+{
+  flow.use(atom->nmax);
+  const FoamBoxLater box(domain, evaluated_later);
+  auto fill = [&](auto &where) {
+    const Foam::FlowVelocity all{
+        {where.column(flow, 0), where.column(flow, 1), where.column(flow, 2)}};
+    where.for_each(atom->nlocal, Foam::ClearFlow{all});
+    for (FixFoamFlow *one : flows) one->fill(where, flow);
+  };
+  bool host = false;
+  for (const FixFoamFlow *one : flows) host = host || one->on_host();
+  if (host) {
+    host_reads();
+    FoamHost there(lmp, groupbit);
+    fill(there);
+    space.bubbles();    // functors will write to them here, as was said before the host read
+  } else
+    fill(space);
+}
+
 // The equations as a scheme sees them: foam_scheme.h
 
 template <int D, class Space> class FixFoamIntegrate::System {
@@ -358,7 +414,15 @@ template <int D, class Space> class FixFoamIntegrate::System {
 
   Fields fields() { return fix.fields<D>(space); }
   Foam::Rates<D, B> rates() { return fix.rates<D>(space); }
-  Foam::Judge<D, B> judge() { return {fields(), fix.gas ? fix.gas->smallest_radius() : 0.0}; }
+  Foam::Judge<D, B> judge()
+  {
+    Fields candidate = fields();
+    if (fix.shear) {
+      candidate.listed_now = fix.list.moved_by_box(fix.step_tried);
+      candidate.listed_ahead = fix.list.moved_by_box(2.0 * fix.step_tried);
+    }
+    return {candidate, fix.gas ? fix.gas->smallest_radius() : 0.0};
+  }
   Foam::Work<Fields> work()
   {
     Foam::Work<Fields> w;
@@ -374,7 +438,7 @@ template <int D, class Space> class FixFoamIntegrate::System {
   }
   template <class T> T reduce(const T &mine) { return foam_reduce(mine, fix.world); }
   double length() const { return fix.pair->hub.record.rin; }
-  bool moves_by_itself() const { return fix.domain->box_change; }
+  bool moves_by_itself() const { return fix.domain->box_change && !fix.shear; }
   bool others_act() const { return fix.others_act(); }
   bool lags() const { return fix.lag.active; }
 };
@@ -426,6 +490,22 @@ template <class Space> double FixFoamIntegrate::largest_radius_in(Space &space)
 template <class Space> double FixFoamIntegrate::count_bubbles_in(Space &space)
 {
   return space.template totals<FoamSum>(atom->nlocal, Foam::CountBubbles());
+}
+
+template <class Space> void FixFoamIntegrate::shift_by_images_in(Space &space, double sign)
+{
+  using B = typename Space::Bubbles;
+  auto before = [&](int k) {
+    return has_history() ? space.column(columns, VX_BEFORE + k) : nullptr;
+  };
+  Foam::with_dimension(dim, [&]<int D>() {
+    const Foam::ShiftByImages<D, B> functor{space.bubbles(),
+                                            space.images(),
+                                            foam_affine_flow(domain),
+                                            {before(0), before(1), before(2)},
+                                            sign};
+    space.for_each(atom->nlocal, functor);
+  });
 }
 
 }    // namespace LAMMPS_NS

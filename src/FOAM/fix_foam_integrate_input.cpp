@@ -132,16 +132,28 @@ void FixFoamIntegrate::init()
 
   gas = nullptr;
   followers.clear();
+  flows.clear();
+  shear = nullptr;
   for (auto &ifix : modify->get_fix_list()) {
     if (auto *found = dynamic_cast<FixFoamCoarsen *>(ifix)) gas = found;
     if (auto *found = dynamic_cast<FoamFollower *>(ifix)) followers.push_back(found);
+    if (auto *found = dynamic_cast<FixFoamFlow *>(ifix)) {
+      flows.push_back(found);
+      if (found->moves_box() && !shear) shear = found;
+    }
   }
+  list.goes_with_box = shear;
   check_companions();
   time_then = driver.time;
   if (record.rin > 0.0) pair->hub.go_on_from(record);
 
-  const bool drifts =
-      pair->neighbor_drag && domain->xperiodic && domain->yperiodic && domain->zperiodic;
+  if (pair->neighbor_drag && !flows.empty() && drift_given && drift_removed)
+    error->all(FLERR,
+               "Fix {}: drift remove cannot be used with drag neighbor and fix foam/flow, which "
+               "moves the foam as a whole: use drift keep",
+               style);
+  const bool drifts = pair->neighbor_drag && flows.empty() && domain->xperiodic &&
+                      domain->yperiodic && domain->zperiodic;
   if (!drift_given) drift_removed = drifts && suffers_from_drift();
   if (drifts && !drift_removed && comm->me == 0)
     error->warning(FLERR,

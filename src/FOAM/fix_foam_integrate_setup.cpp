@@ -34,6 +34,12 @@ using namespace LAMMPS_NS;
 void FixFoamIntegrate::setup_pre_exchange()
 {
   check_bubbles();
+  evaluated_later = 0.0;
+  images_shifted = false;
+  if (shear) {
+    shear->begin_run();
+    shear->begin_step();
+  }
   places.clear();
   if (domain->triclinic)
     for (int i = 0; i < atom->nlocal; i++)
@@ -56,11 +62,28 @@ void FixFoamIntegrate::setup_pre_neighbor()
     const auto &before = known->second;
     bool same = true;    // not an image
     for (int k = 0; k < 3; k++) same = same && std::fabs(x[k] - before[k]) < tiny;
-    if (same) std::copy_n(before.begin(), 3, x);
+    if (same)
+      std::copy_n(before.begin(), 3, x);
+    else if (shear)
+      take_image(i, before.data());
   }
   places.clear();
   host_wrote();
   comm->forward_comm();
+}
+
+// the same as shift_by_images(), for a bubble that has come back at another side
+
+void FixFoamIntegrate::take_image(int i, const double *x_before)
+{
+  const Foam::AffineFlow affine = foam_affine_flow(domain);
+  double u[3], u_before[3];
+  affine(atom->x[i], u);
+  affine(x_before, u_before);
+  for (int k = 0; k < dim; k++) {
+    atom->v[i][k] += u[k] - u_before[k];
+    if (has_history()) columns[VX_BEFORE + k][i] += u[k] - u_before[k];
+  }
 }
 
 void FixFoamIntegrate::pre_neighbor()

@@ -18,19 +18,22 @@
 
 namespace Foam {
 
-// Who tells the ambient velocity: nobody (a liquid at rest), or the neighbors, by the mean of the velocities
-// of the bubbles in contact.  A flow of the liquid belongs here, too.
+// Who tells the ambient velocity: a flow of the liquid, where there is one; else nobody (a liquid at rest), or the
+// neighbors, by the mean of the velocities of the bubbles in contact.
 
 struct AmbientVelocity {
   const double *contacts = nullptr, *vsum[3] = {};    // sums over contacts, or none
+  const double *flow[3] = {};    // columns for this rank's bubbles, NaN: none is imposed there
 
+  FOAM_FUNCTION bool imposed(int i) const { return flow[0] && flow[0][i] == flow[0][i]; }
   FOAM_FUNCTION double operator()(int i, int k) const
   {
+    if (imposed(i)) return flow[k][i];
     return contacts ? mean_of_neighbors(vsum[k][i], contacts[i]) : 0.0;
   }
 };
 
-struct DriftTotals {    // of all velocities
+struct DriftTotals {    // of all velocities, relative to a flow that is imposed
   static constexpr int SLOT = 1;
   FoamSum velocity[3], bubbles;
   FOAM_FUNCTION void join(const DriftTotals &other)
@@ -65,8 +68,11 @@ template <int D, class B> struct AddDrift {
   Drag<D, B> drag;
   FOAM_FUNCTION void operator()(int i, DriftTotals &all) const
   {
-    for (int k = 0; k < D; k++) all.velocity[k] += drag.velocity(i, k);
-    if (drag.b.radius(i) > 0.0) all.bubbles += 1.0;
+    if (!(drag.b.radius(i) > 0.0)) return;
+    const bool flows = drag.ambient.imposed(i);
+    for (int k = 0; k < D; k++)
+      all.velocity[k] += drag.velocity(i, k) - (flows ? drag.ambient(i, k) : 0.0);
+    all.bubbles += 1.0;
   }
 };
 

@@ -40,6 +40,7 @@ class FoamHost : protected Pointers {
   {
     return group == Foam::GROUP_ALL ? Foam::Members() : Foam::Members{atom->mask, group};
   }
+  const imageint *images() const { return atom->image; }
   static double *column(FoamColumns &columns, int c)
   {
     return columns.in_use() ? columns[c] : nullptr;

@@ -54,6 +54,10 @@ class FoamInput {
       return number(fmt::format("a number {} {}", compare == ABOVE ? ">" : ">=", limit),
                     [=](double x) { return compare == ABOVE ? x > limit : x >= limit; });
     }
+    double number() const    // a finite one
+    {
+      return number("a number", [](double) { return true; });
+    }
     double between(double lo, double hi) const    // neither lo nor hi
     {
       return number(fmt::format("a number > {} and < {}", lo, hi),
@@ -91,6 +95,9 @@ class FoamInput {
         if (text == words[n]) return static_cast<int>(n);
       refuse(allowed);
     }
+
+    std::string word(const std::string &allowed) const { return given(allowed); }
+    [[noreturn]] void reject(const std::string &allowed) const { refuse(allowed); }
 
     // types of atoms, as N, *, N*, *M or N*M
 

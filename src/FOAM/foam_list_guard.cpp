@@ -26,7 +26,15 @@ using namespace LAMMPS_NS;
 void FoamListGuard::built()
 {
   if (domain->box_change) find_corners(corners_listed);
+  box_listed = FoamBoxShape(domain);
   list_is_new = true;
+}
+
+Foam::AffineMap FoamListGuard::moved_by_box(double later) const
+{
+  FoamBoxShape then(domain);
+  then.move(domain, later);
+  return foam_affine_map(box_listed, then);
 }
 
 // half of the skin, less what a moving box takes away (the two corners that moved most)
@@ -34,6 +42,10 @@ void FoamListGuard::built()
 double FoamListGuard::margin() const
 {
   if (!domain->box_change) return 0.5 * neighbor->skin;
+  if (goes_with_box) {    // what counts is how bubbles move in it, and how near it brings them to each other
+    const double strain = moved_by_box(0.0).strain(domain->dimension);
+    return MAX(0.0, 0.5 * (neighbor->skin - strain * neighbor->cutneighmax));
+  }
   double corners[8][3], first = 0.0, second = 0.0;
   find_corners(corners);
   for (int c = 0; c < 8; c++) {

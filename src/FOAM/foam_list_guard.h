@@ -10,6 +10,8 @@
 #ifndef LMP_FOAM_LIST_GUARD_H
 #define LMP_FOAM_LIST_GUARD_H
 
+#include "foam_moving_box.h"
+
 #include "pointers.h"
 
 namespace LAMMPS_NS {
@@ -25,8 +27,11 @@ class FoamListGuard : protected Pointers {
   void built();    // just now
   void state_has_changed() { list_is_new = false; }
   bool is_new() const { return list_is_new; }    // built at the present state
-  double margin() const;                         // how far a bubble may have moved and grown since
-  void rebuild();                                // out of turn
+  bool goes_with_box = false;    // bubbles are followed relative to a box that deforms
+  Foam::AffineMap moved_by_box(double later) const;    // since the list was built
+
+  double margin() const;    // how far a bubble may have moved and grown since
+  void rebuild();           // out of turn
 
   // The integrator knows when the list is outdated; LAMMPS' own look at it in each step is spared
   // during a run.
@@ -45,6 +50,7 @@ class FoamListGuard : protected Pointers {
 
  private:
   double corners_listed[8][3] = {};    // of the box, when the list was built
+  FoamBoxShape box_listed;
   bool list_is_new = false;
   int delay_given = -1;    // neigh_modify delay, which does not count during a run
 

@@ -154,6 +154,58 @@ FOAM_FUNCTION double mean_of_neighbors(double sum, double contacts)
   return contacts > 0.0 ? sum / contacts : 0.0;
 }
 
+// A box that deforms takes a liquid along in which nothing else moves: at x = lo + H s, s the box
+// coordinates, u = lo' + H' s.  Indices as LAMMPS has them: xx, yy, zz, yz, xz, xy.
+
+struct AffineFlow {
+  double lo[3], inverse[6], rate[6], rate_lo[3];    // lo, H^-1, H', lo'
+
+  FOAM_FUNCTION void along(const double *s, double *u) const    // H' s
+  {
+    u[0] = rate[0] * s[0] + rate[5] * s[1] + rate[4] * s[2];
+    u[1] = rate[1] * s[1] + rate[3] * s[2];
+    u[2] = rate[2] * s[2];
+  }
+  FOAM_FUNCTION void operator()(const double *x, double *u) const
+  {
+    const double d[3] = {x[0] - lo[0], x[1] - lo[1], x[2] - lo[2]};
+    const double s[3] = {inverse[0] * d[0] + inverse[5] * d[1] + inverse[4] * d[2],
+                         inverse[1] * d[1] + inverse[3] * d[2], inverse[2] * d[2]};
+    along(s, u);
+    for (int k = 0; k < 3; k++) u[k] += rate_lo[k];
+  }
+};
+
+// where a box that has deformed has taken a place to, if nothing else moved it
+
+struct AffineMap {
+  double from[3], to[3], m[6];    // to + M (x - from)
+
+  FOAM_FUNCTION double operator()(const double *x, int k) const
+  {
+    const double d[3] = {x[0] - from[0], x[1] - from[1], x[2] - from[2]};
+    if (k == 0) return to[0] + m[0] * d[0] + m[5] * d[1] + m[4] * d[2];
+    return k == 1 ? to[1] + m[1] * d[1] + m[3] * d[2] : to[2] + m[2] * d[2];
+  }
+
+  // the most by which a distance has changed, per its length: at most the norm of M - 1
+
+  double strain(int dimension) const
+  {
+    double square = m[5] * m[5];
+    if (dimension == 3) square += m[3] * m[3] + m[4] * m[4];
+    for (int k = 0; k < dimension; k++) square += (m[k] - 1.0) * (m[k] - 1.0);
+    return std::sqrt(square);
+  }
+};
+
+// what drag takes from a bubble that does not move with its liquid, per time and direction
+
+FOAM_FUNCTION double dissipated(double mu0, double v, double u)
+{
+  return mu0 * (v - u) * (v - u);
+}
+
 // The neighbors' velocities are taken from what is known already, l, which makes the equation
 // an iteration, v = F / mu0 + A l, A the averaging.  With l the velocities of the last state
 // it never settles: for two bubbles in contact A has the eigenvalue -1, and v alternates

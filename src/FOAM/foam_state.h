@@ -58,6 +58,19 @@ template <class B> struct State {
   Variable variable = Variable::VOLUME;
   double q_unit = 1.0;    // dq / dR at the mean radius
   double range = 1.0;     // of forces, in radii
+
+  // a box that deforms under bubbles that go with it: where it has taken the places of the list to, and will have at
+  // the end of the next step
+
+  bool box_moves = false;
+  AffineMap listed_now{}, listed_ahead{};
+
+  FOAM_FUNCTION double place_listed(int i, int k, const AffineMap &map) const
+  {
+    if (!box_moves) return x_listed[k][i];
+    const double x[3] = {x_listed[0][i], x_listed[1][i], x_listed[2][i]};
+    return map(x, k);
+  }
 };
 
 template <int D, class B> FOAM_FUNCTION void put_gas(const State<B> &s, int i, double q)
@@ -131,7 +144,7 @@ template <int D, class B> struct Fields : State<B> {
   {
     double square = 0.0;
     for (int k = 0; k < D; k++) {
-      const double d = this->b.place(i, k) - this->x_listed[k][i];
+      const double d = this->b.place(i, k) - this->place_listed(i, k, this->listed_now);
       square += d * d;
     }
     return std::sqrt(square) + growth(R - this->radius_listed[i]);
@@ -143,7 +156,8 @@ template <int D, class B> struct Fields : State<B> {
   {
     double square = 0.0;
     for (int k = 0; k < D; k++) {
-      const double d = 2.0 * this->b.place(i, k) - this->start[k][i] - this->x_listed[k][i];
+      const double d = 2.0 * this->b.place(i, k) - this->start[k][i] -
+                       this->place_listed(i, k, this->listed_ahead);
       square += d * d;
     }
     return std::sqrt(square) + growth(2.0 * R - R_start - this->radius_listed[i]);

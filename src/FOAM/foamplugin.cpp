@@ -9,6 +9,7 @@
 #include "fix_foam_abm.h"
 #include "fix_foam_coarsen.h"
 #include "fix_foam_contacts.h"
+#include "fix_foam_flow.h"
 #include "fix_foam_rkc.h"
 #include "fix_foam_wall.h"
 #include "pair_durian_foam.h"
@@ -18,6 +19,7 @@
 #include "fix_foam_abm_kokkos.h"
 #include "fix_foam_coarsen_kokkos.h"
 #include "fix_foam_contacts_kokkos.h"
+#include "fix_foam_flow_kokkos.h"
 #include "fix_foam_rkc_kokkos.h"
 #include "fix_foam_wall_kokkos.h"
 #include "pair_durian_foam_kokkos.h"
@@ -109,6 +111,7 @@ void lammpsplugin_init(void *lmp, void *handle, void *regfunc)
   };
   const char *const coarsen = "fix foam/coarsen: gas exchange between bubbles";
   const char *const ages = "fix foam/contacts: how long bubbles have been in contact";
+  const char *const flow = "fix foam/flow: a flow of the liquid between the bubbles";
   const char *const abm = "fix foam/abm: adaptive Adams-Bashforth-Moulton steps";
   const char *const rkc = "fix foam/rkc: adaptive stabilised Runge-Kutta-Chebyshev steps";
   const char *const wall = "fix foam/wall: walls at faces of the box";
@@ -116,6 +119,7 @@ void lammpsplugin_init(void *lmp, void *handle, void *regfunc)
   pair.operator()<PairDurianFoam>("durian/foam");
   fix.operator()<FixFoamCoarsen>("foam/coarsen", coarsen);
   fix.operator()<FixFoamContacts>("foam/contacts", ages);
+  fix.operator()<FixFoamFlow>("foam/flow", flow);
   fix.operator()<FixFoamABM>("foam/abm", abm);
   fix.operator()<FixFoamRKC>("foam/rkc", rkc);
   fix.operator()<FixFoamWall>("foam/wall", wall);
@@ -128,6 +132,7 @@ void lammpsplugin_init(void *lmp, void *handle, void *regfunc)
   pair.operator()<PairDurianFoamKokkos<LMPDeviceType>>("durian/foam/kk");
   fix.operator()<FixFoamCoarsenKokkos<LMPDeviceType>>("foam/coarsen/kk", coarsen);
   fix.operator()<FixFoamContactsKokkos<LMPDeviceType>>("foam/contacts/kk", ages);
+  fix.operator()<FixFoamFlowKokkos<LMPDeviceType>>("foam/flow/kk", flow);
   fix.operator()<FixFoamABMKokkos<LMPDeviceType>>("foam/abm/kk", abm);
   fix.operator()<FixFoamRKCKokkos<LMPDeviceType>>("foam/rkc/kk", rkc);
   fix.operator()<FixFoamWallKokkos<LMPDeviceType>>("foam/wall/kk", wall);
@@ -136,6 +141,7 @@ void lammpsplugin_init(void *lmp, void *handle, void *regfunc)
   pair.operator()<PairDurianFoamKokkos<LMPDeviceType>>("durian/foam/kk/device");
   fix.operator()<FixFoamCoarsenKokkos<LMPDeviceType>>("foam/coarsen/kk/device", coarsen);
   fix.operator()<FixFoamContactsKokkos<LMPDeviceType>>("foam/contacts/kk/device", ages);
+  fix.operator()<FixFoamFlowKokkos<LMPDeviceType>>("foam/flow/kk/device", flow);
   fix.operator()<FixFoamABMKokkos<LMPDeviceType>>("foam/abm/kk/device", abm);
   fix.operator()<FixFoamRKCKokkos<LMPDeviceType>>("foam/rkc/kk/device", rkc);
   fix.operator()<FixFoamWallKokkos<LMPDeviceType>>("foam/wall/kk/device", wall);
@@ -144,6 +150,7 @@ void lammpsplugin_init(void *lmp, void *handle, void *regfunc)
   pair.operator()<PairDurianFoamKokkos<LMPHostType>>("durian/foam/kk/host");
   fix.operator()<FixFoamCoarsenKokkos<LMPHostType>>("foam/coarsen/kk/host", coarsen);
   fix.operator()<FixFoamContactsKokkos<LMPHostType>>("foam/contacts/kk/host", ages);
+  fix.operator()<FixFoamFlowKokkos<LMPHostType>>("foam/flow/kk/host", flow);
   fix.operator()<FixFoamABMKokkos<LMPHostType>>("foam/abm/kk/host", abm);
   fix.operator()<FixFoamRKCKokkos<LMPHostType>>("foam/rkc/kk/host", rkc);
   fix.operator()<FixFoamWallKokkos<LMPHostType>>("foam/wall/kk/host", wall);

@@ -63,6 +63,7 @@ class FixFoamIntegrateKokkos : public FoamTravellingKokkos<Style, DeviceType> {
   double largest_radius() override { return this->largest_radius_in(space); }
   void solve_drag() override { this->solve_drag_in(space); }
   double count_bubbles() override { return this->count_bubbles_in(space); }
+  void shift_by_images(double sign) override { this->shift_by_images_in(space, sign); }
 
   void host_reads() override { this->atomKK->sync(Host, ALL_MASK); }
   void host_wrote() override

@@ -178,6 +178,11 @@ template <class DeviceType> class FoamKokkos : protected Pointers {
     atomKK->sync(SPACE, MASK_MASK);
     return {atomKK->k_mask.view<DeviceType>().data(), group};
   }
+  const imageint *images() const
+  {
+    atomKK->sync(SPACE, IMAGE_MASK);
+    return atomKK->k_image.view<DeviceType>().data();
+  }
   static double *column(FoamColumns &columns, int c) { return columns.on_device(c); }
   static void keep(const FoamColumnList &all)
   {

@@ -17,7 +17,7 @@ UNOPTIMIZED = ["-DCMAKE_CXX_FLAGS_RELEASE=-O0 -DNDEBUG"]    # a third of the tim
 
 STYLES = {
     "pair": ["durian/foam"],
-    "fix": ["foam/coarsen", "foam/abm", "foam/rkc", "foam/contacts", "foam/wall"],
+    "fix": ["foam/coarsen", "foam/abm", "foam/rkc", "foam/contacts", "foam/wall", "foam/flow"],
     "compute": ["foam/bubble"],
 }
 KOKKOS_STYLES = {kind: [f"{name}/{suffix}" for name in names

@@ -57,6 +57,10 @@ def number(above=None, at_least=None, below=()):
                 bad | {word: word for word in below})
 
 
+def any_number(*good):
+    return Kind(r"a number\b", list(good or ["0.1", "-1", "+.5", "0", "-0.0", "1e-400"]), NO_NUMBER)
+
+
 def above_one():
     return Kind(r"a number > 1\b", ["1.9", "+2", "1.5e0", "1e300"],
                 {**NO_NUMBER, "one": "1", "below": "0.99", "zero": "0", "negative": "-2"})
@@ -130,6 +134,9 @@ STYLES = [
           {**INTEGRATOR, "stages": either("auto", integer(3, 200)),
            "spectral": either("auto", number(above=0))}),
     Style("ages", "foam/contacts", "fix ages all foam/contacts", {}, {"trial": one_of("no", "yes")}),
+    Style("flow", "foam/flow", "region all block INF INF INF INF INF INF\n"
+          "fix flow all foam/flow region all velocity",
+          {"VX": any_number(), "VY": any_number(), "VZ": any_number("0", "-0.0")}, {"touch": one_of("no", "yes")}),
     Style("compute", "foam/bubble", "compute b all foam/bubble", {},
           quantities=("contacts", "area", "free", "vfilm", "vliquid", "rdot", "espring", "edurian")),
 ]
@@ -147,6 +154,7 @@ SCRIPT = {
     "gas": "fix gas all foam/coarsen 1e-3 0.1",
     "step": "fix step all foam/abm 1e-3",
     "ages": None,    # in the scripts of its own cases
+    "flow": None,
     "compute": "compute b all foam/bubble contacts",
     "dump": "dump d all custom 1 dump id c_b",
     "thermo": "thermo_style custom step time pe f_gas[1] f_gas[3] f_gas[4] f_gas[5] f_gas[8] f_step[6]",

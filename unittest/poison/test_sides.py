@@ -25,7 +25,8 @@ def run(runner, name, then="", **more):
 # what asks for the sides in different orders: ways through the host, lists, removal, history, output
 NAMES = ["plain", "3D", "neighbor drag", "neighbor drag 3D on 2 ranks", "drift removed", "source",
          "source, neighbor drag", "rkc", "rkc 3D, neighbor drag, 2 ranks", "film only", "4 ranks",
-         "sorted often on 2 ranks", "cutoffs renewed on 4 ranks", "sheared, rkc, 2 ranks", "other forces",
+         "sorted often on 2 ranks", "cutoffs renewed on 4 ranks", "sheared, rkc, 2 ranks",
+         "flow with the box, 2 ranks", "flow in a region", "other forces",
          "viscous", "two runs", "pre no", "restarts written", "integrator again", "exchange again",
          "drag changed", "minimized", "bubbles added", "bubbles deleted", "radii changed",
          "state stored, 2 ranks", "contact ages", "contact ages, 2 ranks", "foam walls",
@@ -47,6 +48,8 @@ COLUMNS = {
     "film exchange": "plain", "energies": "plain", "gas and rates": "plain",
     "lagged velocities": "neighbor drag", "starts": "plain", "velocities of the start": "neighbor drag",
     "listed places": "plain", "work of the scheme": "source",
+    "velocities of the liquid": "flow with the box, 2 ranks",
+    "velocities of a flow": "flow with the box, 2 ranks",
     "contact records": "contact ages", "contact records on trial": "contact ages",
     "ages of contacts": "contact ages", "stress at walls": "foam walls",
 }

@@ -131,6 +131,13 @@ SCENES = {
     "sheared on 2 ranks": dict(text=after_data("change_box all triclinic"), after=SHEAR, ranks=2),
     "sheared, rkc, 2 ranks": dict(text=after_data("change_box all triclinic"), after=SHEAR, ranks=2,
                                   integrator="rkc", run="run 40"),
+    "flow with the box, 2 ranks": dict(text=after_data("change_box all triclinic"), ranks=2,
+                                       after=SHEAR.replace("f_step[1]", "f_step[7]").replace("remap x", "remap none")
+                                       + "fix flow all foam/flow shear\n"
+                                       "fix mean all ave/time 10 1 10 f_flow[*] file flow.txt\n"),
+    "flow in a region": dict(after="region r block 0 8 3 12 INF INF\n"
+                             "fix flow all foam/flow region r velocity 0.1 0.2 0.0 touch yes\n"
+                             "fix mean all ave/time 10 1 10 f_flow[*] file flow.txt\n"),
     "compressed": dict(after="fix press all deform 1 x scale 0.9 y scale 0.9 remap x"),
     "walls": dict(before="boundary s m p", ranks=2),
     "walls 3D": dict(dim=3, before="boundary p p s"),
