@@ -78,6 +78,9 @@ void FixFoamFlow::init()
     if (!region)
       error->all(FLERR, "Fix foam/flow: REGION must be the ID of a region, not {}",
                  FoamInput::shown(region_id));
+    if (touching && region->dynamic)
+      error->all(FLERR, "Fix foam/flow: touch yes needs a region that stays where it is, unlike {}",
+                 FoamInput::shown(region_id));
     if (touching && region->openflag)
       error->all(FLERR, "Fix foam/flow: touch yes needs a region without open faces, which {} has",
                  FoamInput::shown(region_id));
@@ -146,7 +149,6 @@ void FixFoamFlow::setup(int)
 
 bool FixFoamFlow::touches(double *x, double R)
 {
-  if (region->dynamic) region->inverse_transform(x[0], x[1], x[2]);
   return region->interior ? region->surface_exterior(x, R) : region->surface_interior(x, R);
 }
 

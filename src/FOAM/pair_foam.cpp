@@ -67,11 +67,9 @@ void PairFoam::gather_diagnostics()
 
 // a product with the matrix of drag between bubbles in contact: foam_contact_drag.h
 
-void PairFoam::gather_given()
+void PairFoam::sum_given()
 {
   ev_unset();
-  make_room(Foam::GIVEN);
-  send_given();
   gather(Foam::DRAG | Foam::GIVEN);
 }
 

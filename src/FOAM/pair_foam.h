@@ -38,8 +38,9 @@ class PairFoam : public Pair {
 
   void gather_diagnostics();    // Foam::DIAGNOSTICS of this state, for computes
   void make_room(unsigned what);
-  void gather_given();    // numbers of contacts, and sums of what owned bubbles have in `given`
-  void refresh();         // cutoffs, ghosts and bins for bubbles that have grown
+  virtual void send_given();    // what owned bubbles have in `given`, to ghosts
+  void sum_given();             // numbers of contacts, and sums of `given` over them
+  void refresh();               // cutoffs, ghosts and bins for bubbles that have grown
   bool outgrown(double R) const { return R > cutoff_radius; }    // have bubbles of this radius?
   virtual double stiffest() const = 0;                           // largest spring constant
   virtual double range() const { return 1.0; }    // forces act at r < range (R_i + R_j)
@@ -94,7 +95,6 @@ class PairFoam : public Pair {
 
   unsigned gathered_with_forces() const;
   virtual void gather(unsigned what) = 0;    // makes room, and runs the loop over contacts
-  virtual void send_given();                 // to ghosts
 
  private:
   bool rerun_told = false, inertia_told = false;
