@@ -66,7 +66,7 @@ enum Gather : unsigned {
   ENERGY = 32,     // each bubble's share of the energies
   ANY = 64,        // what a loop is told when it runs
   TALLY = 128,     // energy and virial of each pair
-  GIVEN = 256,     // VSUM of given velocities instead of LAMMPS'
+  GIVEN = 256,     // VSUM of what neighbors have been given more than the bubble
   DRAG = CONTACTS | VSUM,
   DIAGNOSTICS = CONTACTS | FILM | AREA | ENERGY
 };

@@ -35,7 +35,8 @@ struct DragTotals {    // of one iteration; r in units of velocity, r / mu0
   }
 };
 
-// The columns of the system.  contacts and vsum are the sums over contacts of what was given last, in p.
+// The columns of the system.  vsum are the sums of p_j - p_i over contacts, of what was given last: where images have
+// another velocity, differences are the same from both sides.
 
 template <int D, class B> struct DragSystem {
   Drag<D, B> drag;
@@ -47,7 +48,7 @@ template <int D, class B> struct DragSystem {
   FOAM_FUNCTION double diagonal(int i) const { return drag.mu0 + mu_c * contacts[i]; }
   FOAM_FUNCTION double apply(int i, int k) const    // A p
   {
-    return contact_drag_force(drag.mu0, mu_c, contacts[i], p[k][i], vsum[k][i]);
+    return contact_drag_force(drag.mu0, mu_c, p[k][i], vsum[k][i]);
   }
   FOAM_FUNCTION void add(int i, int k, DragTotals &all) const
   {
@@ -79,7 +80,7 @@ template <int D, class B> struct TakeForces {
     const bool alive = s.alive(i);
     for (int k = 0; k < D; k++) {
       s.r[k][i] = alive ? s.drag.b.f(i, k) : 0.0;
-      if (alive && flows) s.r[k][i] -= s.apply(i, k) - s.drag.mu0 * s.p[k][i];
+      if (alive && flows) s.r[k][i] += s.mu_c * s.vsum[k][i];
       if (!alive) s.w[k][i] = 0.0;
       s.p[k][i] = s.w[k][i];
     }

@@ -93,14 +93,6 @@ struct ContactLoop {
       return WHAT;
   }
 
-  FOAM_ALWAYS_INLINE double velocity(const ContactSums &s, int i, int k) const
-  {
-    if constexpr (WHAT & GIVEN)
-      return s.given[k][i];
-    else
-      return b.v(i, k);
-  }
-
   FOAM_ALWAYS_INLINE void operator()(int n, Tally &tally) const
   {
     // numbers are written through pointers that might, for all the compiler knows, point to members
@@ -178,8 +170,14 @@ struct ContactLoop {
       }
       if (gathers(VSUM))
         for (int k = 0; k < D; k++) {
-          vsum_i[k] += velocity(s, j, k);
-          if (both) s.vsum[k][j] += velocity(s, i, k);
+          if constexpr (WHAT & GIVEN) {
+            const double difference = s.given[k][j] - s.given[k][i];
+            vsum_i[k] += difference;
+            if (both) s.vsum[k][j] -= difference;
+          } else {
+            vsum_i[k] += b.v(j, k);
+            if (both) s.vsum[k][j] += b.v(i, k);
+          }
         }
       if (gathers(FILM | AREA)) {
         const double A = contact_area<D>(r, Ri, Rj);

@@ -141,12 +141,11 @@ FOAM_FUNCTION double drag_velocity(double F, double mu0, double u)
 }
 
 // With drag between bubbles in contact, too, mu0 (v_i - u_i) + mu_c sum_j (v_i - v_j) = F_i [Tighe et al., Phys. Rev. Lett.
-// 105, 088303 (2010)]: the left side for u_i = 0, from the number of contacts and the sum of v_j
+// 105, 088303 (2010)]: the left side for u_i = 0, from the sum of v_j - v_i
 
-FOAM_FUNCTION double contact_drag_force(double mu0, double mu_c, double contacts, double v,
-                                        double sum)
+FOAM_FUNCTION double contact_drag_force(double mu0, double mu_c, double v, double sum)
 {
-  return (mu0 + mu_c * contacts) * v - mu_c * sum;
+  return mu0 * v - mu_c * sum;
 }
 
 FOAM_FUNCTION double mean_of_neighbors(double sum, double contacts)

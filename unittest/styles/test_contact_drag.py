@@ -50,6 +50,82 @@ write_dump all custom last id x y z vx vy vz fx fy fz radius modify sort id form
     assert (v * f).sum() == pytest.approx(np.einsum("ik,ij,jk", v, A, v), rel=1e-9)
 
 
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_sheared(each_lmp, ranks):
+    """In a box that is sheared the velocity of an image is that of its bubble and of the side between them; what is solved
+    is the velocity relative to the flow. And power: what the shear puts in by the stress of contacts, elastic and viscous, both drags
+    dissipate, or springs store."""
+    x, R, _, box = foam(2, 12)
+    rate, mu_c = 0.05, 3.0
+    text = case(2, pair=f"drag contact {mu_c}", gas="0 0", step="1e-4", run="", every=10000).replace(
+        "read_data     data\n", "read_data data\nchange_box all triclinic\n") + f"""
+unfix gas
+thermo_style custom step time xy pe
+variable shift equal {rate}*f_step[7]*ly
+variable speed equal {rate}*ly
+fix deform all deform 1 xy variable v_shift v_speed remap none
+fix flow all foam/flow shear
+run 40
+unfix step
+fix step all foam/abm 1e-11 dt0 1.0
+thermo_style custom step xy f_flow[5]
+{PRECISE}
+run 0
+write_dump all custom last id x y z vx vy vz fx fy fz radius iy modify sort id format float %.17g
+"""
+    result = each_lmp(text, files={"data": data_file([box] * 2, x, R)}, ranks=ranks)
+    frame, tilt = result.dump("last")[0], result.thermo[-1]["Xy"][0]
+    x, v, f = (frame.array(*[letter + k for k in "xy"]) for letter in ("", "v", "f"))
+    assert abs(tilt) > 0.1
+    v[:, 0] -= rate * box * frame["iy"]    # output has them for bubbles as if they had never come back
+    n = len(x)
+    A, b = np.eye(n), f.copy()
+    u = np.column_stack([rate * x[:, 1], np.zeros(n)])
+    viscous = stored = dissipated = 0.0
+    for i in range(n):
+        for j in range(i):
+            d = x[j] - x[i]
+            rows = round(d[1] / box)
+            d -= np.array([tilt, box]) * rows
+            d[0] -= box * round(d[0] / box)
+            r = np.hypot(*d)
+            if r >= frame["radius"][i] + frame["radius"][j]:
+                continue
+            A[i, i] += mu_c
+            A[j, j] += mu_c
+            A[i, j] -= mu_c
+            A[j, i] -= mu_c
+            du = np.array([rate * d[1], 0.0])    # u_j - u_i
+            b[i] += mu_c * du
+            b[j] -= mu_c * du
+            dv = v[j] - v[i] - np.array([rate * box * rows, 0.0])    # of the image and i
+            dissipated += mu_c * (dv @ dv)
+            viscous += mu_c * dv[0] * d[1]
+            overlap = frame["radius"][i] + frame["radius"][j] - r
+            stored -= R.mean() * overlap / (overlap + r) * (d @ dv) / r
+    w = np.linalg.solve(A, b)
+    assert np.abs(v - u - w).max() < 1e-10 * np.abs(w).max()
+    background = ((v - u)**2).sum()
+    assert result.thermo[-1]["f_flow[5]"][0] == pytest.approx(background, rel=1e-9)
+    elastic = sum_of_virial(x, frame["radius"], R.mean(), tilt, box)
+    assert rate * (elastic + viscous) == pytest.approx(background + dissipated + stored, rel=1e-8)
+
+
+def sum_of_virial(x, R, k, tilt, box):
+    """-sum over pairs of F_x y, what the shear stress of the springs is without the volume."""
+    total = 0.0
+    for i in range(len(x)):
+        for j in range(i):
+            d = x[j] - x[i]
+            rows = round(d[1] / box)
+            d -= np.array([tilt, box]) * rows
+            d[0] -= box * round(d[0] / box)
+            r = np.hypot(*d)
+            if r < R[i] + R[j]:
+                total -= k * (1 - r / (R[i] + R[j])) * d[0] * d[1] / r
+    return total
+
+
 def test_two_bubbles(each_lmp):
     """A pair in closed form: the sum of velocities is 0, the difference that of a drag mu0 + 2 mu_c. So the overlap
     falls like exp(-k t / (mu0 + 2 mu_c)), k = 2 sigma0 <R_in> / (R_i + R_j)."""
