@@ -25,7 +25,7 @@ namespace Foam {
 template <int D, class B>
 FOAM_FUNCTION double open_area(const B &b, int i, const double *contact_area, const Walls &walls)
 {
-  return free_area(surface<D>(b.radius(i)), contact_area[i] + walls.covered<D>(b, i));
+  return free_area(surface<D>(b.radius(i)), contact_area[i] + walls.cover<D>(b, i));
 }
 
 // The sums over all bubbles that the second part takes

@@ -41,7 +41,7 @@ struct LawParameter {
 struct ContactLaw {
   static constexpr bool BEYOND = false;    // acts beyond contact: at r < range() (Ri + Rj)
   static constexpr bool ONLY_3D = false;
-  static constexpr double range() { return 1.0; }
+  FOAM_FUNCTION static constexpr double range() { return 1.0; }
   double spring(double sigma0) const
   {
     return sigma0;

@@ -28,14 +28,17 @@
 #define FOAM_FUNCTION inline
 #endif
 
-// for the one loop that a compiler may take for too large, and for what is called in it
+// for the one loop that a compiler may take for too large, and for what is called in it; and for what few foams need, so
+// that loops of others are small enough
 
 #if defined(__GNUC__) && !defined(__CUDACC__) && !defined(__HIPCC__)
 #define FOAM_INLINE_LAMBDA __attribute__((always_inline))
 #define FOAM_ALWAYS_INLINE FOAM_INLINE_LAMBDA inline
+#define FOAM_RARELY_CALLED __attribute__((noinline))
 #else
 #define FOAM_INLINE_LAMBDA
 #define FOAM_ALWAYS_INLINE FOAM_FUNCTION
+#define FOAM_RARELY_CALLED FOAM_FUNCTION
 #endif
 
 namespace Foam {

@@ -45,13 +45,25 @@ struct Walls {
 
   template <class B> FOAM_FUNCTION double hold(const B &b, int i, int k, double v) const
   {
+    return count == 0 ? v : held(b, i, k, v);
+  }
+
+  // area of the bubble's surface that walls cut off
+
+  template <int D, class B> FOAM_FUNCTION double cover(const B &b, int i) const
+  {
+    return count == 0 ? 0.0 : covered<D>(b, i);
+  }
+
+ private:
+  template <class B> FOAM_RARELY_CALLED double held(const B &b, int i, int k, double v) const
+  {
     for (int w = 0; w < count; w++)
       if (axis(w) != k && feels(i, w) && distance(b, i, w) < b.radius(i))
         v = velocity_along_wall(v, drag[w]);
     return v;
   }
-
-  template <int D, class B> FOAM_FUNCTION double covered(const B &b, int i) const
+  template <int D, class B> FOAM_RARELY_CALLED double covered(const B &b, int i) const
   {
     double area = 0.0;
     for (int w = 0; w < count; w++)
