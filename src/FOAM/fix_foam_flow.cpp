@@ -129,7 +129,7 @@ void FixFoamFlow::check_foam()
                "across a boundary that moves are not those of their images; use drag static");
 }
 
-Fix *FixFoamFlow::deform() const
+Fix *FixFoamFlow::fix_deform() const
 {
   for (auto &ifix : modify->get_fix_list())
     if (utils::strmatch(ifix->style, "^deform")) return ifix;
@@ -218,9 +218,9 @@ void FixFoamFlow::begin_run()
   const double dt = update->dt;
   update->dt = 0.0;
   off.put(domain);
-  deform()->end_of_step();
+  fix_deform()->end_of_step();
   now.put(domain);
-  deform()->end_of_step();    // rates may depend on the size of the box
+  fix_deform()->end_of_step();    // rates may depend on the size of the box
   now.put(domain);
   update->dt = dt;
   for (double *rate : {&domain->h_rate[0], &domain->h_rate[1], &domain->h_rate[2]})

@@ -77,7 +77,7 @@ class FixFoamFlow : public Fix {
   Foam::FlowTotals last;
   bigint last_step = -1;
 
-  class Fix *deform() const;
+  class Fix *fix_deform() const;
   void check_foam();
   bool touches(double *x, double R);
   void fill_region(FoamColumns &);

@@ -33,9 +33,10 @@ struct FlowVelocity {    // columns; NaN where nothing is imposed
 struct ClearFlow {
   static constexpr const char *NAME = "foam: clear flow";
   FlowVelocity flow;
+  double none = std::numeric_limits<double>::quiet_NaN();
   FOAM_FUNCTION void operator()(int i) const
   {
-    for (int k = 0; k < 3; k++) flow.u[k][i] = std::numeric_limits<double>::quiet_NaN();
+    for (int k = 0; k < 3; k++) flow.u[k][i] = none;
   }
 };
 

@@ -58,7 +58,8 @@ def number(above=None, at_least=None, below=()):
 
 
 def any_number(*good):
-    return Kind(r"a number\b", list(good or ["0.1", "-1", "+.5", "0", "-0.0", "1e-400"]), NO_NUMBER)
+    bad = {how: word for how, word in NO_NUMBER.items() if how != "minus of typography"}    # LAMMPS takes it for -
+    return Kind(r"a number\b", list(good or ["0.1", "-1", "+.5", "0", "-0.0", "1e-400"]), bad)
 
 
 def above_one():
@@ -134,9 +135,11 @@ STYLES = [
           {**INTEGRATOR, "stages": either("auto", integer(3, 200)),
            "spectral": either("auto", number(above=0))}),
     Style("ages", "foam/contacts", "fix ages all foam/contacts", {}, {"trial": one_of("no", "yes")}),
-    Style("flow", "foam/flow", "region all block INF INF INF INF INF INF\n"
-          "fix flow all foam/flow region all velocity",
-          {"VX": any_number(), "VY": any_number(), "VZ": any_number("0", "-0.0")}, {"touch": one_of("no", "yes")}),
+    Style("flow", "foam/flow", "fix flow all foam/flow",
+          {"KIND": dataclasses.replace(one_of("region", "shear", "field"), good=["region"]),
+           "REGION": Kind("the ID of a region", ["everywhere"], BAD),
+           "velocity": Kind(r"\bvelocity\b", ["velocity"], BAD),
+           "VX": any_number(), "VY": any_number(), "VZ": any_number("0", "-0.0")}, {"touch": one_of("no", "yes")}),
     Style("compute", "foam/bubble", "compute b all foam/bubble", {},
           quantities=("contacts", "area", "free", "vfilm", "vliquid", "rdot", "espring", "edurian")),
 ]
@@ -149,6 +152,7 @@ SCRIPT = {
     "atom": "atom_style sphere 1",
     "modify": "atom_modify map array",
     "read": "read_data data",
+    "region": "region everywhere block INF INF INF INF INF INF",
     "pair": "pair_style durian/foam 1.0",
     "coeff": "pair_coeff * * 1.0",
     "gas": "fix gas all foam/coarsen 1e-3 0.1",

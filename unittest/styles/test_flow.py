@@ -48,8 +48,8 @@ def test_region(lmp, step, touch):
     """Velocities are exact: that of the liquid for bubbles inside, and for those that touch, if wanted. One
     region ends where the box does: a bubble that has gone over the boundary is in it again."""
     x, R = np.array([[2.0, 5.0], [4.5, 8.0], [8.0, 2.0]]), np.ones(3)
-    result = run(lmp, x, R, f"region r block 0 4 0 10 -1 1\nfix flow all foam/flow region r velocity 0 0.7 0 touch {touch}",
-                 step=f"{step} 1e-3 dtmax 0.1")
+    flow = f"region r block 0 4 0 10 -1 1\nfix flow all foam/flow region r velocity 0 0.7 0 touch {touch}"
+    result = run(lmp, x, R, flow, step=f"{step} 1e-3 dtmax 0.1")
     moves = np.array([True, touch == "yes", False])
     for frame in result.dump("dump"):
         d = np.outer(moves, [0.0, 0.7 * frame.time])
@@ -209,7 +209,8 @@ def sheared_foam(lmp, integrator, step, ranks=1, n=12, run="run 60", after="", *
 @pytest.mark.parametrize("ranks", [1, 2])
 def test_foam_in_a_shear(lmp, step, ranks):
     """Springs sum to zero, and so does v - u; and what the fix says is that of the state."""
-    result = sheared_foam(lmp, step, "1e-3", ranks, after=f"thermo_style custom step time f_flow[*] f_step[7]\n{PRECISE}")
+    result = sheared_foam(lmp, step, "1e-3", ranks,
+                          after=f"thermo_style custom step time f_flow[*] f_step[7]\n{PRECISE}")
     frames, table = result.dump("dump"), result.thermo[0]
     for n, frame in enumerate(frames):
         u = RATE * frame["y"]
@@ -316,7 +317,7 @@ def test_back_ends(kk_lmp, backends, step, flow, dim):
 
     def go(lmp, ranks):
         text = case(dim, integrator=step, gas="0.1 0.3 rmin 0.4", run="run 40" if step == "abm" else "run 12",
-                    after=FLOWS[flow] + "\nthermo_style custom step atoms time pe f_gas[*] f_step[*] f_flow[*]\n" + PRECISE,
+                    after=f"{FLOWS[flow]}\nthermo_style custom step atoms time pe f_gas[*] f_step[*] f_flow[*]\n{PRECISE}",
                     every=10)
         return lmp(tilted(text) if flow == "shear" else text, files={"data": data_file([box] * dim, x, R)},
                    ranks=ranks).thermo[0]
