@@ -219,6 +219,44 @@ def test_force_on_a_wall_is_the_pressure(lmp, law):
     assert -table["f_lo[2]"][-1] == pytest.approx(table["f_hi[2]"][-1], rel=1e-8)
 
 
+@pytest.mark.parametrize("integrator", ["abm", "rkc"])
+def test_a_foam_rises_and_packs(lmp, integrator):
+    """Massless bubbles in a dilute box under their buoyancy, B per area (fix addforce): at rest the wall above bears that of
+    all of them, and the foam below it is the denser the higher."""
+    rng, n, box, B = np.random.default_rng(3), 150, (16.0, 60.0), 0.004
+    x = np.column_stack([rng.uniform(0, box[0], n), rng.uniform(2, box[1] - 2, n)])
+    R = rng.normal(1.0, 0.15, n).clip(0.6, 1.4)
+    text = HEAD.format(dim=2).replace("boundary      p p p", boundary("yhi")) + f"""
+read_data     data
+neighbor      0.3 bin
+pair_style    durian/foam 1.0 rin 1.0
+pair_coeff    * * 1.0
+fix           step all foam/{integrator} 1e-3
+fix           w all foam/wall ylo yhi
+variable      lift atom {B}*PI*radius^2
+fix           up all addforce 0.0 v_lift 0.0
+thermo_style  custom step time f_w[*] fmax
+thermo        10
+{PRECISE}
+variable      t equal f_step[1]
+fix           end all halt 10 v_t >= 30000 error continue
+run           30000
+write_dump    all custom last id x y z radius modify sort id format float %.17g
+"""
+    result = lmp(text, files={"data": data_file(box, x, R)})
+    table, frame = result.thermo[-1], result.dump("last")[0]
+    lift = B * np.pi * (R**2).sum()
+    assert table["f_w[2]"][-1] == pytest.approx(lift, rel=3e-4)    # rkc 2e-9; abm, whose steps are of the edge of stability, 8e-5
+    area, y = np.pi * frame["radius"]**2, frame["y"]
+    assert y.min() > box[1] / 3    # all have risen
+
+    def gas_between(low, high):
+        return area[(y >= low) & (y < high)].sum() / (box[0] * (high - low))
+
+    top = box[1]
+    assert gas_between(top - 8, top) > gas_between(top - 24, top - 16) > 0.7    # packed, and pressed together above
+
+
 @pytest.mark.parametrize("dim", [2, 3])
 @pytest.mark.parametrize("integrator, drag", [("abm", "static"), ("rkc", "static"), ("abm", "neighbor")])
 def test_coarsens(kk_lmp, backends, dim, integrator, drag):
