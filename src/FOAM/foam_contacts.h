@@ -13,45 +13,10 @@
 #include "foam_bubbles.h"
 #include "foam_law.h"
 
-#include <stdexcept>
-#include <string>
-
 // The one loop over contacts, for base and KOKKOS styles: forces by a contact law (foam_law.h), and beside
 // them, in the same pass, what drag and gas exchange need.
 
 namespace Foam {
-
-// Every combination that occurs is a loop of its own, so what is off costs nothing: calls run<WHAT>() for the given
-// one.  Where energy and virial are wanted, too, one loop does for all but the plain forces.
-
-template <class Run> void with_gathered(unsigned what, bool tallied, Run &&run)
-{
-  const bool drag = (what & DRAG) == DRAG;
-  const unsigned beside = what & ~DRAG;
-  auto either = [&]<unsigned WHAT>() {
-    if (drag)
-      run.template operator()<WHAT | DRAG>();
-    else
-      run.template operator()<WHAT>();
-  };
-  if (what == DIAGNOSTICS && !tallied) return run.template operator()<DIAGNOSTICS>();
-  if (what == (DRAG | GIVEN)) return run.template operator()<DRAG | GIVEN>();
-  const bool known =
-      (drag || !(what & DRAG)) && (beside & FORCE) && !(beside & ~(FORCE | FILM | AREA));
-  if (!known) throw std::logic_error("Foam package: no loop gathers " + std::to_string(what));
-  if (what == FORCE && tallied) return run.template operator()<FORCE | TALLY>();
-  if (tallied) return run.template operator()<ANY | TALLY>();
-  switch (beside) {
-    case FORCE:
-      return either.template operator()<FORCE>();
-    case FORCE | AREA:
-      return either.template operator()<FORCE | AREA>();
-    case FORCE | FILM:
-      return either.template operator()<FORCE | FILM>();
-    default:
-      return either.template operator()<FORCE | FILM | AREA>();
-  }
-}
 
 struct Coefficients {
   const double *sigma0;    // of a pair of types, [ntypes+1][ntypes+1]

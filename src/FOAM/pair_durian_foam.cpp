@@ -11,7 +11,7 @@
 
 #include "foam_half_list.h"
 #include "foam_host.h"
-#include "foam_laws.h"
+#include "foam_contact_loops.h"
 
 #include "atom.h"
 #include "comm.h"
@@ -55,11 +55,9 @@ void PairDurianFoam::gather(unsigned what)
 {
   make_room(what);
   take_list();
-  Foam::with_law(law, [&](const auto &chosen) {
-    Foam::with_gathered(what, evflag, [&]<unsigned WHAT>() {
-      Foam::with_dimension(domain->dimension, [&]<int D>() { gather_in<D, WHAT>(chosen, what); });
-    });
-  });
+  Foam::with_loop(
+      law, what, evflag, domain->dimension,
+      [&]<int D, unsigned WHAT>(const auto &chosen) { gather_in<D, WHAT>(chosen, what); });
 
   gathered = what & ~(Foam::FORCE | Foam::GIVEN);
   if (force->newton_pair && gathered) comm->reverse_comm(this);

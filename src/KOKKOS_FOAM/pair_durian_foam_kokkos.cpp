@@ -10,7 +10,7 @@
 #include "pair_durian_foam_kokkos.h"
 
 #include "foam_gas.h"
-#include "foam_laws.h"
+#include "foam_contact_loops.h"
 
 #include "comm.h"
 #include "domain.h"
@@ -419,11 +419,9 @@ template <class DeviceType> void PairDurianFoamKokkos<DeviceType>::gather(unsign
   make_room(what);
   take_list();
   if (what & Foam::FORCE) hub.free_surface_known = false;
-  Foam::with_law(law, [&](const auto &chosen) {
-    Foam::with_gathered(what, evflag, [&]<unsigned WHAT>() {
-      Foam::with_dimension(domain->dimension, [&]<int D>() { gather_in<D, WHAT>(chosen, what); });
-    });
-  });
+  Foam::with_loop(
+      law, what, evflag, domain->dimension,
+      [&]<int D, unsigned WHAT>(const auto &chosen) { gather_in<D, WHAT>(chosen, what); });
 }
 
 template <class DeviceType>
