@@ -13,11 +13,11 @@
 
 #include "comm.h"
 #include "error.h"
-#include "input.h"
+#include "group.h"
+#include "library.h"
 #include "modify.h"
 #include "region.h"
 #include "update.h"
-#include "variable.h"
 
 #include <cmath>
 
@@ -87,11 +87,11 @@ void FixFoamFlow::init()
   }
   for (int k = 0; k < 3; k++) {
     if (variable_name[k].empty()) continue;
-    variable[k] = lmp->input->variable->find(variable_name[k].c_str());
-    if (variable[k] < 0 || !lmp->input->variable->atomstyle(variable[k]))
+    const int type = lammps_extract_variable_datatype(lmp, variable_name[k].c_str());
+    if (type != LMP_VAR_ATOM)
       error->all(FLERR, "Fix foam/flow: v_{} must be an atom-style variable: {}",
                  FoamInput::shown(variable_name[k]),
-                 variable[k] < 0 ? "there is none of this name" : "this is one of another style");
+                 type < 0 ? "there is none of this name" : "this is one of another style");
   }
 }
 
@@ -165,20 +165,26 @@ void FixFoamFlow::fill_region(FoamColumns &u)
   }
 }
 
+// By LAMMPS' library: an installed LAMMPS lacks a header that variable.h includes
+
 void FixFoamFlow::fill_field(FoamColumns &u)
 {
-  Variable *const variables = input->variable;
   const int n = atom->nlocal;
   double *const columns[3] = {u[0], u[1], u[2]};
-  values.resize(MAX(1, n));
   modify->clearstep_compute();
   for (int k = 0; k < 3; k++) {
-    if (variable[k] < 0) {
+    if (variable_name[k].empty()) {
       for (int i = 0; i < n; i++)
         if (atom->mask[i] & groupbit) columns[k][i] = 0.0;
       continue;
     }
-    variables->compute_atom(variable[k], igroup, values.data(), 1, 0);
+    auto *const values = static_cast<double *>(
+        lammps_extract_variable(lmp, variable_name[k].c_str(), group->names[igroup]));
+    if (!values && n > 0) {
+      char why[256] = "";
+      if (lammps_has_error(lmp)) lammps_get_last_error_message(lmp, why, sizeof(why));
+      error->one(FLERR, "Fix foam/flow: v_{} has no values: {}", variable_name[k], why);
+    }
     for (int i = 0; i < n; i++) {
       if (!(atom->mask[i] & groupbit)) continue;
       if (!std::isfinite(values[i]))
@@ -186,6 +192,7 @@ void FixFoamFlow::fill_field(FoamColumns &u)
                    variable_name[k], atom->tag[i], atom->x[i][0], atom->x[i][1], atom->x[i][2]);
       columns[k][i] = values[i];
     }
+    lammps_free(values);
   }
   modify->addstep_compute(update->ntimestep + 1);
 }
@@ -287,5 +294,5 @@ double FixFoamFlow::compute_vector(int n)
 
 double FixFoamFlow::memory_usage()
 {
-  return bytes(all_columns) + sizeof(double) * double(values.capacity());
+  return bytes(all_columns);
 }

@@ -68,8 +68,6 @@ class FixFoamFlow : public Fix {
   bool touching = false;
   std::string region_id, variable_name[3];    // empty: 0
   class Region *region = nullptr;
-  int variable[3] = {-1, -1, -1};
-  std::vector<double> values;
 
   double moved_by = 0.0;    // since fix deform has acted last
   double moved_tilts[3] = {0.0, 0.0, 0.0};
