@@ -16,6 +16,8 @@
 #include "fix.h"
 #include "modify.h"
 
+#include <algorithm>
+
 using namespace LAMMPS_NS;
 
 void FoamHub::take_means()
@@ -102,7 +104,10 @@ Foam::Walls FoamHub::walls_now(WallsThat act, int &group) const
 
 void FoamHub::take_away(const Fix *fix)
 {
-  std::erase_if(walls, [=](const Wall &wall) { return wall.of == fix; });
+  auto its = [=](const Wall &wall) {
+    return wall.of == fix;
+  };
+  walls.erase(std::remove_if(walls.begin(), walls.end(), its), walls.end());
 }
 
 // they have the same: FixFoamIntegrate::check_companions()

@@ -76,7 +76,7 @@ void PairDurianFoam::take_list()
   const double *const radius = atom->radius;
   const double *const *const x = atom->x;
   near_list.take(list->inum, list->ilist, list->numneigh, list->firstneigh, atom->nlocal,
-                 [=, this](int i, int j) {
+                 [factor, radius, x, this](int i, int j) {
                    const double reach = factor * (radius[i] + radius[j]) + neighbor->skin;
                    double square = 0.0;
                    for (int k = 0; k < 3; k++) square += (x[i][k] - x[j][k]) * (x[i][k] - x[j][k]);
