@@ -23,7 +23,8 @@ def run(runner, name, then="", **more):
 
 
 # what asks for the sides in different orders: ways through the host, lists, removal, history, output
-NAMES = ["plain", "3D", "neighbor drag", "neighbor drag 3D on 2 ranks", "drift removed", "source",
+NAMES = ["plain", "3D", "drag between bubbles", "drag between bubbles 3D on 2 ranks",
+         "neighbor drag", "neighbor drag 3D on 2 ranks", "drift removed", "source",
          "source, neighbor drag", "rkc", "rkc 3D, neighbor drag, 2 ranks", "film only", "4 ranks",
          "sorted often on 2 ranks", "cutoffs renewed on 4 ranks", "sheared, rkc, 2 ranks",
          "flow with the box, 2 ranks", "flow in a region", "other forces",
@@ -50,6 +51,8 @@ COLUMNS = {
     "listed places": "plain", "work of the scheme": "source",
     "velocities of the liquid": "flow with the box, 2 ranks",
     "velocities of a flow": "flow with the box, 2 ranks",
+    "given velocities": "drag between bubbles", "residuals of the drag": "drag between bubbles",
+    "velocities with drag between bubbles": "drag between bubbles",
     "contact records": "contact ages", "contact records on trial": "contact ages",
     "ages of contacts": "contact ages", "stress at walls": "foam walls",
 }

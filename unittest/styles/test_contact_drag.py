@@ -52,9 +52,9 @@ write_dump all custom last id x y z vx vy vz fx fy fz radius modify sort id form
 
 @pytest.mark.parametrize("ranks", [1, 2])
 def test_sheared(each_lmp, ranks):
-    """In a box that is sheared the velocity of an image is that of its bubble and of the side between them; what is solved
-    is the velocity relative to the flow. And power: what the shear puts in by the stress of contacts, elastic and viscous, both drags
-    dissipate, or springs store."""
+    """In a box that is sheared the velocity of an image is that of its bubble and of the side between them; what is
+    solved is the velocity relative to the flow. And power: what the shear puts in by the stress of contacts, elastic
+    and viscous, both drags dissipate, or springs store."""
     x, R, _, box = foam(2, 12)
     rate, mu_c = 0.05, 3.0
     text = case(2, pair=f"drag contact {mu_c}", gas="0 0", step="1e-4", run="", every=10000).replace(

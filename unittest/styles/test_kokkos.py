@@ -89,6 +89,9 @@ SCENES = {
     "3D": dict(dim=3),
     "neighbor drag": dict(pair="drag neighbor"),
     "neighbor drag 3D on 2 ranks": dict(dim=3, pair="drag neighbor", ranks=2),
+    # few steps: solutions agree to what they are asked for, and to rounding only while all take as many iterations
+    "drag between bubbles": dict(pair="drag contact 1.0", run="run 2", every=1),
+    "drag between bubbles 3D on 2 ranks": dict(dim=3, pair="drag contact 1.0", run="run 2", every=1, ranks=2),
     "drift removed": dict(pair="drag neighbor", step="1e-3 drift remove"),
     "source": dict(step="1e-3 scheme source"),
     "source, neighbor drag": dict(step="1e-3 scheme source", pair="drag neighbor"),

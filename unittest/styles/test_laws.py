@@ -134,7 +134,7 @@ run           100
     apart = {step: np.diff(frame.array("x", "y"), axis=0)[0] for step, frame in frames.items()}
     r = {step: np.hypot(*d) for step, d in apart.items()}
     assert r[0] > 2 * (1 + 2 * A)
-    assert r[200] == pytest.approx(2 * (1 - push / k * apart[200][0] / r[200]), abs=1e-3)    # the line of centres turns slowly
+    assert r[200] == pytest.approx(2 * (1 - push / k * apart[200][0] / r[200]), abs=1e-3)    # it turns slowly
     assert r[300] == pytest.approx(2.0, abs=1e-4)
     seen = [(r[step], frame) for step, frame in frames.items() if 2.0 < r[step] < 2 * (1 + 2 * A)]
     assert len(seen) > 2    # in the shell
@@ -146,8 +146,8 @@ run           100
 
 @pytest.mark.parametrize("dim", [2, 3])
 def test_lists_reach_as_far_as_the_shell(lmp, dim):
-    """A foam whose bubbles grow, move and vanish: with a thin skin, whose lists are used for many steps, as with a thick
-    one. A pair that a list has missed would differ by its force, 1e-1."""
+    """A foam whose bubbles grow, move and vanish: with a thin skin, whose lists are used for many steps, as with a
+    thick one. A pair that a list has missed would differ by its force, 1e-1."""
     thin, thick = (run(lmp, "sticky 0.2", dim, gas="0.3 0.3 rmin 0.5", neighbor=f"{skin} bin", integrator="abm",
                        run="run 40") for skin in (0.2, 1.0))
     assert_same_run(thin.thermo[0], thick.thermo[0])

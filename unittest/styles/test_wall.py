@@ -221,8 +221,8 @@ def test_force_on_a_wall_is_the_pressure(lmp, law):
 
 @pytest.mark.parametrize("integrator", ["abm", "rkc"])
 def test_a_foam_rises_and_packs(lmp, integrator):
-    """Massless bubbles in a dilute box under their buoyancy, B per area (fix addforce): at rest the wall above bears that of
-    all of them, and the foam below it is the denser the higher."""
+    """Massless bubbles in a dilute box under their buoyancy, B per area (fix addforce): at rest the wall above bears
+    that of all of them, and the foam below it is the denser the higher."""
     rng, n, box, B = np.random.default_rng(3), 150, (16.0, 60.0), 0.004
     x = np.column_stack([rng.uniform(0, box[0], n), rng.uniform(2, box[1] - 2, n)])
     R = rng.normal(1.0, 0.15, n).clip(0.6, 1.4)
@@ -246,7 +246,7 @@ write_dump    all custom last id x y z radius modify sort id format float %.17g
     result = lmp(text, files={"data": data_file(box, x, R)})
     table, frame = result.thermo[-1], result.dump("last")[0]
     lift = B * np.pi * (R**2).sum()
-    assert table["f_w[2]"][-1] == pytest.approx(lift, rel=3e-4)    # rkc 2e-9; abm, whose steps are of the edge of stability, 8e-5
+    assert table["f_w[2]"][-1] == pytest.approx(lift, rel=3e-4)    # rkc 2e-9; abm at its edge of stability 8e-5
     area, y = np.pi * frame["radius"]**2, frame["y"]
     assert y.min() > box[1] / 3    # all have risen
 
