@@ -50,7 +50,7 @@ template <int D, class B> struct Drag {
   Sums<DriftTotals> drift{};    // nothing unless it is taken off
   bool drift_removed = false;
   const double *solved[3] =
-      {};    // v - u, if bubbles in contact drag each other: foam_contact_drag.h
+      {};           // v - u, if bubbles in contact drag each other: foam_contact_drag.h
   Walls walls{};    // that hold bubbles
 
   FOAM_FUNCTION double velocity(int i, int k) const

@@ -245,7 +245,10 @@ template <class DeviceType> class FoamKokkos : protected Pointers {
                             FoamJoin<Totals, typename DeviceType::memory_space>(there));
     return {{}, there};
   }
-  template <class Totals> static bool reads(const Foam::Sums<Totals> &) { return true; }
+  template <class Totals> static bool reads(const Foam::Sums<Totals> &)
+  {
+    return true;
+  }
   template <class Totals> static Totals fetch(const Totals *there)
   {
     using Here = Kokkos::View<Totals, Kokkos::HostSpace, Kokkos::MemoryUnmanaged>;
