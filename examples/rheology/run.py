@@ -3,9 +3,9 @@
 
     python3 run.py [--lmp LMP] [--out DIR] [--bubbles N] [--full] [--plot-only]
 
-Draws DIR/rheology.png: shear stress against rate for gas fractions around jamming, with drag by the liquid alone (static, model
-RD) and with drag between bubbles in contact, too (contact 1.0, model CD). Tables of the means are in DIR/rheology.csv. Minutes
-on two cores with 400 bubbles; --full has 10^4, more gas fractions and longer strains: hours.
+Draws DIR/rheology.png: shear stress against rate for gas fractions around jamming, with drag by the liquid alone
+(static, model RD) and with drag between bubbles in contact, too (contact 1.0, model CD). Tables of the means are in
+DIR/rheology.csv. Minutes on two cores with 400 bubbles; --full has 10^4, more gas fractions and longer strains: hours.
 """
 import argparse
 import concurrent.futures
@@ -112,7 +112,8 @@ def main():
             for n, one in enumerate(concurrent.futures.as_completed(running), 1):
                 one.result()
                 spent = time.monotonic() - start
-                print(f"{n} of {len(jobs)} curves, {spent:.0f} s, to go {spent / n * (len(jobs) - n):.0f} s", flush=True)
+                to_go = spent / n * (len(jobs) - n)
+                print(f"{n} of {len(jobs)} curves, {spent:.0f} s, to go {to_go:.0f} s", flush=True)
     draw(out, what["phis"])
 
 

@@ -317,7 +317,8 @@ def test_back_ends(kk_lmp, backends, step, flow, dim):
 
     def go(lmp, ranks):
         text = case(dim, integrator=step, gas="0.1 0.3 rmin 0.4", run="run 40" if step == "abm" else "run 12",
-                    after=f"{FLOWS[flow]}\nthermo_style custom step atoms time pe f_gas[*] f_step[*] f_flow[*]\n{PRECISE}",
+                    after=f"{FLOWS[flow]}\nthermo_style custom step atoms time pe f_gas[*] f_step[*] f_flow[*]\n"
+                          f"{PRECISE}",
                     every=10)
         return lmp(tilted(text) if flow == "shear" else text, files={"data": data_file([box] * dim, x, R)},
                    ranks=ranks).thermo[0]
