@@ -60,11 +60,8 @@ ComputeFoamBubble::~ComputeFoamBubble()
 
 void ComputeFoamBubble::init()
 {
+  PairFoam::for_style(lmp, "Compute foam/bubble", kokkosable, execution_space);
   find_foam();
-  if (pair->kokkosable != kokkosable || (kokkosable && pair->execution_space != execution_space))
-    error->all(FLERR,
-               "Compute foam/bubble and pair style durian/foam must run in the same place: use the "
-               "suffix kk for all styles of the foam or for none");
 }
 
 void ComputeFoamBubble::find_foam()

@@ -72,12 +72,7 @@ int FixFoamContacts::setmask()
 
 void FixFoamContacts::init()
 {
-  pair = PairFoam::of(lmp);
-  if (!pair) error->all(FLERR, "Fix foam/contacts needs one pair_style durian/foam");
-  if (pair->kokkosable != kokkosable || (kokkosable && pair->execution_space != execution_space))
-    error->all(FLERR,
-               "Fix foam/contacts and pair style durian/foam must run in the same place: use the "
-               "suffix kk for all styles of the foam or for none");
+  pair = PairFoam::for_style(lmp, "Fix foam/contacts", kokkosable, execution_space);
   Fix *integrator = nullptr;
   for (auto &ifix : modify->get_fix_list())
     if (FoamHub::integrates(ifix)) integrator = ifix;

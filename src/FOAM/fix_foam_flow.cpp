@@ -97,20 +97,13 @@ void FixFoamFlow::init()
 
 void FixFoamFlow::check_foam()
 {
-  pair = PairFoam::of(lmp);
-  if (!pair) error->all(FLERR, "Fix foam/flow needs one pair_style durian/foam");
-  if (pair->kokkosable != kokkosable || (kokkosable && pair->execution_space != execution_space))
-    error->all(FLERR,
-               "Fix foam/flow and pair style durian/foam must run in the same place: use the "
-               "suffix kk for all styles of the foam or for none");
-  bool integrated = false, deforms = false;
+  pair = PairFoam::for_style(lmp, "Fix foam/flow", kokkosable, execution_space);
+  bool integrated = false, deforms = false, before = true;
   for (auto &ifix : modify->get_fix_list()) {
     if (FoamHub::integrates(ifix)) integrated = true;
-    if (ifix == this) break;
-    if (utils::strmatch(ifix->style, "^deform")) deforms = true;
+    if (ifix == this) before = false;
+    if (before && utils::strmatch(ifix->style, "^deform")) deforms = true;
   }
-  for (auto &ifix : modify->get_fix_list())
-    if (FoamHub::integrates(ifix)) integrated = true;
   if (!integrated)
     error->all(FLERR,
                "Fix foam/flow needs a fix that integrates the foam, fix foam/rkc or foam/abm");

@@ -211,15 +211,13 @@ double FixFoamIntegrate::error_of_drag() const
              PART * displacement() * length / natural_time());
 }
 
-void FixFoamIntegrate::count_solution(int found)
+void FixFoamIntegrate::no_solution()
 {
-  if (found < 0)
-    error->all(
-        FLERR,
-        "Fix {}: the velocities of bubbles that drag each other were not found: mu_c = {} is too "
-        "large beside mu0 = {}",
-        style, pair->mu_c, pair->mu0);
-  products += found;
+  error->all(
+      FLERR,
+      "Fix {}: the velocities of bubbles that drag each other were not found: mu_c = {} is too "
+      "large beside mu0 = {}",
+      style, pair->mu_c, pair->mu0);
 }
 
 void FixFoamIntegrate::shift_by_images(double sign)

@@ -250,8 +250,7 @@ class FixFoamIntegrate : public Fix {
   void remove_small();
   bool history_at_accept() const;
   void set_timestep(double);
-  double products = 0.0;    // with the matrix of the drag, in all evaluations
-  void count_solution(int);
+  [[noreturn]] void no_solution();    // of the drag
 
   // for the driver
 

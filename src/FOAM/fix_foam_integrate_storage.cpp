@@ -61,9 +61,10 @@ int FixFoamIntegrate::pack_restart(int i, double *buf)
   // in mid-run the last velocities are the present ones
 
   if (lag.columns.in_use() && update->whichflag == 1) lag.keep_last(i);
+  const FoamColumnList all = travelling();
   unsigned in_use = 0;
-  for (size_t n = 0; n < travelling().size(); n++)
-    if (travelling()[n]->in_use()) in_use |= 1u << n;
+  for (size_t n = 0; n < all.size(); n++)
+    if (all[n]->in_use()) in_use |= 1u << n;
   buf[0] = size_restart(i);
   buf[1] = in_use;
   return 2 + pack_exchange(i, buf + 2);

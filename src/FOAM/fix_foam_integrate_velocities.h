@@ -61,7 +61,7 @@ template <class Space> void FixFoamIntegrate::solve_drag_in(Space &space)
     from.use(atom->nmax);
     for (int k = 0; k < 3; k++) to[k] = space.column(from, k);
   };
-  const int found = Foam::with_dimension(dim, [&]<int D>() {
+  const bool found = Foam::with_dimension(dim, [&]<int D>() {
     pair->make_room(Foam::DRAG | Foam::GIVEN);
     const Foam::ContactSums sums = pair->contact_sums(space);
     Foam::DragSystem<D, B> s{drag_without_contacts<D>(space),
@@ -94,7 +94,7 @@ template <class Space> void FixFoamIntegrate::solve_drag_in(Space &space)
           return foam_sum(space.template totals<Foam::DragTotals>(atom->nlocal, functor), world);
         });
   });
-  count_solution(found);
+  if (!found) no_solution();
 }
 
 // Averaging over neighbors leaves a common velocity as it is, so with neighbor drag the foam

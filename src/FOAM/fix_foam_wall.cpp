@@ -93,12 +93,7 @@ void FixFoamWall::check_box() const
 
 void FixFoamWall::init()
 {
-  pair = PairFoam::of(lmp);
-  if (!pair) error->all(FLERR, "Fix foam/wall needs one pair_style durian/foam");
-  if (pair->kokkosable != kokkosable || (kokkosable && pair->execution_space != execution_space))
-    error->all(FLERR,
-               "Fix foam/wall and pair style durian/foam must run in the same place: use the "
-               "suffix kk for all styles of the foam or for none");
+  pair = PairFoam::for_style(lmp, "Fix foam/wall", kokkosable, execution_space);
   check_box();
   for (auto &ifix : modify->get_fix_list())
     if (auto *other = dynamic_cast<FixFoamWall *>(ifix); other && other != this)

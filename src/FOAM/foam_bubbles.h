@@ -55,6 +55,20 @@ struct HostBubbles {
   FOAM_FUNCTION void put(int i, int k, double value) const { x(i, k) = value; }
 };
 
+// May a pair come within range (R_i + R_j) before the next list? LAMMPS' lists by the cutoff of types have many that may not.
+
+template <class B>
+FOAM_FUNCTION bool comes_near(const B &b, int i, int j, double range, double skin)
+{
+  const double reach = range * (b.radius(i) + b.radius(j)) + skin;
+  double square = 0.0;
+  for (int k = 0; k < 3; k++) {
+    const double d = b.x(i, k) - b.x(j, k);
+    square += d * d;
+  }
+  return square < reach * reach;
+}
+
 // What one pass over the contacts gathers
 
 enum Gather : unsigned {

@@ -143,34 +143,31 @@ template <int D, class B> struct NextDirection {
 
 // w with a root mean square error (over components) of at most so much.  gather() brings the sums over contacts of
 // what is in p, gather_ambient(), if the liquid flows, the same with u of images where they are; all(functor) the totals over
-// all ranks.  The number of products, or -1 if it is not found.
+// all ranks.  False if it is not found; what is no number the judgement of the step finds.
 
 template <int D, class B, class Space, class Gather, class Ambient, class All>
-int solve_contact_drag(const DragSystem<D, B> &s, Space &space, int n, double error,
-                       const Gather &gather, bool flows, const Ambient &gather_ambient,
-                       const All &all)
+bool solve_contact_drag(const DragSystem<D, B> &s, Space &space, int n, double error,
+                        const Gather &gather, bool flows, const Ambient &gather_ambient,
+                        const All &all)
 {
   constexpr double ROUNDING = 1.0e-14;
   constexpr int MOST = 10000;
-  int products = 1;
   if (flows) {
     space.for_each(n, GiveAmbient<D, B>{s});
     gather_ambient();
-    products++;
   }
   space.for_each(n, TakeForces<D, B>{s, flows});
   gather();
   DragTotals now = all(StartSolution<D, B>{s});
   const double enough = std::max(error * error * now.numbers, ROUNDING * ROUNDING * now.forces);
-  for (; now.squares > enough && products < MOST; products++) {
+  for (int products = 1; now.squares > enough && products < MOST; products++) {
     gather();
     const double alpha = now.product / all(AlongDirection<D, B>{s}).product;
     const double before = now.product;
     now = all(AdvanceSolution<D, B>{s, alpha});
     space.for_each(n, NextDirection<D, B>{s, now.product / before});
   }
-  return now.squares > enough ? -1
-                              : products;    // what is no number the judgement of the step finds
+  return !(now.squares > enough);
 }
 
 }    // namespace Foam

@@ -72,16 +72,10 @@ void PairDurianFoam::take_list()
   if (listed_ncalls == neighbor->ncalls && listed_lastcall == neighbor->lastcall) return;
   listed_ncalls = neighbor->ncalls;
   listed_lastcall = neighbor->lastcall;
-  const double factor = range();
-  const double *const radius = atom->radius;
-  const double *const *const x = atom->x;
+  const double factor = range(), skin = neighbor->skin;
+  const Foam::HostBubbles b = FoamHost(lmp).bubbles();
   near_list.take(list->inum, list->ilist, list->numneigh, list->firstneigh, atom->nlocal,
-                 [factor, radius, x, this](int i, int j) {
-                   const double reach = factor * (radius[i] + radius[j]) + neighbor->skin;
-                   double square = 0.0;
-                   for (int k = 0; k < 3; k++) square += (x[i][k] - x[j][k]) * (x[i][k] - x[j][k]);
-                   return square < reach * reach;
-                 });
+                 [=](int i, int j) { return Foam::comes_near(b, i, j, factor, skin); });
 }
 
 double PairDurianFoam::memory_usage()

@@ -176,13 +176,13 @@ void PairDurianFoam::read_restart_settings(FILE *fp)
                      r.tau >= 0.0 && r.removed_bubbles >= 0.0;
   if (!sound || !std::isfinite(mu0 + mu_c + r.rin + r.ain + headroom + r.tau + r.removed_bubbles +
                                r.removed_gas))
-    error->all(
-        FLERR,
-        "Pair style durian/foam: the restart file has mu0 {} (must be > 0), mu_c {}, mean radius "
-        "{} and "
-        "mean surface {} (must be >= 0), headroom {} (must be >= 1), tau {} and {} removed bubbles "
-        "(must be >= 0): it is damaged, or of another version of this style",
-        mu0, mu_c, r.rin, r.ain, headroom, r.tau, r.removed_bubbles);
+    error->all(FLERR,
+               "Pair style durian/foam: the restart file has mu0 {} (must be > 0), mu_c {} (must "
+               "be >= 0), "
+               "mean radius {} and mean surface {} (must be >= 0), headroom {} (must be >= 1), tau "
+               "{} and {} removed bubbles "
+               "(must be >= 0): it is damaged, or of another version of this style",
+               mu0, mu_c, r.rin, r.ain, headroom, r.tau, r.removed_bubbles);
   bool law_known = false;
   Foam::with_law(law, [&](const auto &chosen) {
     law_known = true;

@@ -43,6 +43,19 @@ PairFoam *PairFoam::of(LAMMPS *lmp)
   return dynamic_cast<PairFoam *>(lmp->force->pair_match("foam", 0));
 }
 
+PairFoam *PairFoam::for_style(LAMMPS *lmp, const char *name, int kokkosable, int execution_space)
+{
+  PairFoam *const pair = of(lmp);
+  Error *const error = lmp->error;
+  if (!pair) error->all(FLERR, "{} needs one pair_style durian/foam", name);
+  if (pair->kokkosable != kokkosable || (kokkosable && pair->execution_space != execution_space))
+    error->all(FLERR,
+               "{} and pair style durian/foam must run in the same place: use the suffix kk for "
+               "all styles of the foam or for none",
+               name);
+  return pair;
+}
+
 /* ----------------------------------------------------------------------
    one pass over the contacts
 ------------------------------------------------------------------------- */

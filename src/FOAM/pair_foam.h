@@ -25,6 +25,10 @@ class PairFoam : public Pair {
   PairFoam(class LAMMPS *, const char *name);
   static PairFoam *of(class LAMMPS *);    // the one in use, or none
 
+  // the one in use, for a style of this name that must run where it does; else an error
+
+  static PairFoam *for_style(class LAMMPS *, const char *name, int kokkosable, int execution_space);
+
   void compute(int, int) override;
   void init_style() override;
   void setup() override;

@@ -65,14 +65,7 @@ template <class DeviceType> struct ListedPairs {
   double range, skin;
   KOKKOS_INLINE_FUNCTION bool near(int i, int j) const
   {
-    if (range == 0.0) return true;
-    const double reach = range * (b.radius(i) + b.radius(j)) + skin;
-    double square = 0.0;
-    for (int k = 0; k < 3; k++) {
-      const double d = b.x(i, k) - b.x(j, k);
-      square += d * d;
-    }
-    return square < reach * reach;
+    return range == 0.0 || Foam::comes_near(b, i, j, range, skin);
   }
 
   struct Chunk {
