@@ -18,25 +18,30 @@ class Collapse:
 
     def __init__(self, phi, rate, value, error, degree=DEGREE):
         self.points = len(phi)
-        self.best = np.inf
-        log_rate, log_value = np.log(rate), np.log(value)
+        wanted = np.log(value) / error
 
-        def scan(phi_js, inverses):
-            for phi_j in phi_js:
-                for inverse in inverses:
-                    x = (phi - phi_j) / rate**inverse
-                    width = np.abs(x).max()         # powers of numbers up to 1: a good condition
-                    columns = np.column_stack([log_rate, *((x / width)**k for k in range(degree + 1))]) / error[:, None]
-                    found = np.linalg.lstsq(columns, log_value / error, rcond=None)[0]
-                    chi2 = ((columns @ found - log_value / error)**2).sum()
-                    if chi2 < self.best:
-                        self.best, self.phi_j, self.inverse, self.width = chi2, phi_j, inverse, width
-                        self.q, self.shape = found[0], found[1:]
+        def columns(x):
+            """Of the linear fits, one for each row of x; powers of numbers up to 1, for a good condition."""
+            scaled = x / np.abs(x).max(axis=1, keepdims=True)
+            powers = [scaled**k for k in range(degree + 1)]
+            return np.stack([np.broadcast_to(np.log(rate), x.shape), *powers], axis=2) / error[:, None]
 
-        scan(PHI_J, INVERSE)
-        self.at_edge = self.phi_j in PHI_J[[0, -1]] or self.inverse in INVERSE[[0, -1]]
-        scan(self.phi_j + 0.0001 * np.arange(-5, 6), self.inverse + 0.005 * np.arange(-4, 5))
-        self.chi2 = self.best / (self.points - degree - 4)      # by degree + 1 coefficients, q, phi_J, 1 / z nu
+        def scan(phi_j, inverse):
+            """The least sum of squares over a grid, and where it is."""
+            phi_j, inverse = (axis.reshape(-1, 1) for axis in np.meshgrid(phi_j, inverse))
+            q = np.linalg.qr(columns((phi - phi_j) / rate**inverse))[0]
+            left = wanted - np.einsum("gnk,gk->gn", q, np.einsum("gnk,n->gk", q, wanted))
+            squares = (left**2).sum(1)
+            best = squares.argmin()
+            return squares[best], phi_j[best, 0], inverse[best, 0]
+
+        _, phi_j, inverse = scan(PHI_J, INVERSE)
+        self.at_edge = phi_j in PHI_J[[0, -1]] or inverse in INVERSE[[0, -1]]
+        squares, self.phi_j, self.inverse = scan(phi_j + 0.0001 * np.arange(-5, 6), inverse + 0.005 * np.arange(-4, 5))
+        x = (phi - self.phi_j) / rate**self.inverse
+        self.width = np.abs(x).max()
+        self.q, *self.shape = np.linalg.lstsq(columns(x[None])[0], wanted, rcond=None)[0]
+        self.chi2 = squares / (self.points - degree - 4)        # by degree + 1 coefficients, q, phi_J, 1 / z nu
         self.delta, self.beta = self.q / self.inverse, (1 - self.q) / self.inverse
 
     def curve(self, x):

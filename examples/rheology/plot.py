@@ -21,13 +21,14 @@ from collapse import Collapse, bootstrap
 
 DRAGS = {"static": "drag of the liquid (RD)", "contact": "and between bubbles (CD)"}
 STYLE = {"font.size": 12, "axes.spines.top": False, "axes.spines.right": False, "legend.frameon": False,
-         "mathtext.fontset": "cm", "savefig.dpi": 120}
+         "mathtext.fontset": "cm", "savefig.dpi": 100}
 RATE = r"shear rate  $\dot\gamma \mu_0 / \sigma_0$"
 STRESS = r"shear stress  $\Sigma / \sigma_0$"
 SKIP, BLOCK = 1.0, 0.5      # strain not counted at each rate; strain of the blocks whose means give the error
 FLOOR = 0.01                # relative error that no point falls below in fits: the forms fitted are not exact either
 NEAR = 0.012                # |phi - 0.843| of points that are collapsed
-WINDOWS = (1e-2, 1e-3, 3e-4, 1e-4)      # fastest rates of fits
+WINDOWS = (1e-2, 1e-3, 1e-4, 1e-5)      # fastest rates of fits
+DRAWN = 1e-3                            # the one that is drawn
 
 
 # ------------------------------------------------------------------ reading
@@ -79,8 +80,15 @@ def flow_curve(means, bubbles, drag, phi):
     return np.array([(key[3], m.stress, m.error) for key, m in means.items() if key[:3] == (bubbles, drag, phi)]).T
 
 
-def phis_of(means, bubbles, drag):
-    return sorted({key[2] for key in means if key[:2] == (bubbles, drag)})
+def phis_of(means, bubbles, drag, step=0.0):
+    """Gas fractions that there are; with a step only multiples of it."""
+    phis = sorted({key[2] for key in means if key[:2] == (bubbles, drag)})
+    return [phi for phi in phis if not step or abs(phi / step - round(phi / step)) < 1e-6]
+
+
+def short(phi):
+    """0.80, but 0.835"""
+    return f"{phi:.2f}" if abs(100 * phi - round(100 * phi)) < 1e-6 else f"{phi:.4g}"
 
 
 # ------------------------------------------------------------------ yield stress
@@ -95,7 +103,7 @@ def slopes(rate, stress, error):
 
 
 def herschel_bulkley(rate, stress, error, times=200):
-    """sigma_y, k, n of stress = sigma_y + k rate^n; their standard deviations, by noise of the size of the errors; chi2.
+    """sigma_y, k, n of stress = sigma_y + k rate^n; their standard deviations, by noise of that size; chi2.
 
     A scan over n with a linear fit for each. sigma_y may come out negative: then there is no yield stress.
     """
@@ -125,7 +133,7 @@ def report_yield(means, bubbles):
             line = f"  {drag:8s}phi {phi:.4f}  slope {slope:5.2f} +- {spread:.2f} ({rate[0]:g} to {rate[ten]:g})"
             for top in WINDOWS[:2]:
                 use = rate <= 1.01 * top
-                if use.sum() > 4:
+                if use.sum() > 3:
                     fit, off, chi2 = herschel_bulkley(*curve[:, use])
                     line += (f"   rates to {top:g}: sigma_y {fit[0]:9.2e} +- {off[0]:.1e}, n {fit[2]:.2f} +- "
                              f"{off[2]:.2f}, chi2 {chi2:.1f}")
@@ -182,13 +190,14 @@ def report_sizes(means):
 # ------------------------------------------------------------------ pictures
 
 def draw_flow(means, bubbles, path):
-    fig, axes = plt.subplots(1, 3, figsize=(15, 4.8), layout="constrained")
-    every = sorted({phi for drag in DRAGS for phi in phis_of(means, bubbles, drag)})
+    """Flow curves and slopes, at multiples of 0.005: the rest is in the collapse."""
+    fig, axes = plt.subplots(1, 3, figsize=(13.5, 4.5), layout="constrained")
+    every = sorted({phi for drag in DRAGS for phi in phis_of(means, bubbles, drag, 0.005)})
     colours = dict(zip(every, plt.cm.viridis(np.linspace(0.0, 0.92, len(every)))))
     for ax, (drag, label) in zip(axes, DRAGS.items()):
-        for phi in phis_of(means, bubbles, drag):
+        for phi in phis_of(means, bubbles, drag, 0.005):
             rate, stress, error = flow_curve(means, bubbles, drag, phi)
-            ax.errorbar(rate, stress, error, color=colours[phi], marker="o", ms=3.5, lw=1.1, label=f"{phi:.3g}")
+            ax.errorbar(rate, stress, error, color=colours[phi], marker="o", ms=3.5, lw=1.1, label=short(phi))
         ax.set(xscale="log", yscale="log", xlabel=RATE, ylabel=STRESS, title=label)
         if ax.lines:
             ax.legend(title=r"$\phi$", fontsize=9, handlelength=1.2, loc="lower right", ncols=2, columnspacing=1.0)
@@ -196,7 +205,7 @@ def draw_flow(means, bubbles, path):
     for ax in axes[:2]:
         ax.set_ylim(low, high)
     ax = axes[2]
-    for phi in phis_of(means, bubbles, "static"):
+    for phi in phis_of(means, bubbles, "static", 0.005):
         rate, slope, error = slopes(*flow_curve(means, bubbles, "static", phi))
         ax.errorbar(rate, slope, error, color=colours[phi], marker="o", ms=3.5, lw=1.1)
     for slope, text in ((1.0, "viscous"), (0.0, "yield stress")):
@@ -205,12 +214,12 @@ def draw_flow(means, bubbles, path):
                     ha="right", color="0.4", fontsize=10)
     ax.set(xscale="log", xlabel=RATE, ylim=(-0.15, 1.2), title="slope, RD",
            ylabel=r"$\mathrm{d} \ln\Sigma \,/\, \mathrm{d} \ln\dot\gamma$")
-    fig.savefig(path)
+    fig.savefig(path, pil_kwargs={"optimize": True})
     plt.close(fig)
 
 
 def draw_collapse(means, bubbles, fit, top, path):
-    fig, (left, middle, right) = plt.subplots(1, 3, figsize=(15, 4.8), layout="constrained")
+    fig, (left, middle, right) = plt.subplots(1, 3, figsize=(13.5, 4.5), layout="constrained")
     points = near_points(means, bubbles, top)
     phi, rate, stress = points[:3]
     phis = sorted(set(phi))
@@ -219,7 +228,7 @@ def draw_collapse(means, bubbles, fit, top, path):
     distance = np.abs(phi - fit.phi_j)
     for one in phis:
         use = phi == one
-        style = dict(color=colours[one], marker="o" if one < fit.phi_j else "s", ms=4, ls="", label=f"{one:.4g}")
+        style = dict(color=colours[one], marker="o" if one < fit.phi_j else "s", ms=4, ls="", label=short(one))
         left.plot(x[use], stress[use] / rate[use]**fit.q, **style)
         if np.all(distance[use] > 1e-4):
             middle.plot(stress[use] / distance[use]**fit.delta,
@@ -243,7 +252,7 @@ def draw_collapse(means, bubbles, fit, top, path):
                                label=rf"{r:.0e},  {n}")
     right.set(yscale="log", xlabel=r"gas fraction  $\phi$", ylabel=STRESS, title="number of bubbles")
     right.legend(title=r"$\dot\gamma$,  $N$", fontsize=9, handlelength=2.2)
-    fig.savefig(path)
+    fig.savefig(path, pil_kwargs={"optimize": True})
     plt.close(fig)
 
 
@@ -272,8 +281,8 @@ def report_startup(curves):
         later = windows[:, first:].mean(0).max() / steady.mean()
         slope = np.polyfit(strain[strain < 0.02], stress[:, strain < 0.02].mean(0), 1)[0]
         root = np.sqrt(len(stress))
-        print(f"  {drag:8s}phi {phi:g} rate {rate:g}, {len(stress)} seeds: steady {steady.mean():.4f} +- "
-              f"{steady.std(ddof=1) / root:.4f}, peak {ratio:.2f} +- {error / root:.2f} at the strain "
+        print(f"  {drag:8s}phi {phi:g} rate {rate:g}, {len(stress)} seeds: steady {steady.mean():.3e} +- "
+              f"{steady.std(ddof=1) / root:.0e}, peak {ratio:.2f} +- {error / root:.2f} at the strain "
               f"{0.05 * (k + 0.5):.2f}, later {later:.2f}, slope {slope:.3f}")
 
 
@@ -293,7 +302,7 @@ def draw_startup(curves, path):
         ax.set(xlim=(0, 1.5), yscale="log", xlabel="strain", title=f"{DRAGS[drag]},  $\\phi$ = {phi:g}")
     axes[0, 0].set(ylabel=STRESS, ylim=(1e-3, None))
     axes[0, 0].legend(title=RATE, fontsize=10, ncols=4, loc="lower right")
-    fig.savefig(path)
+    fig.savefig(path, pil_kwargs={"optimize": True})
     plt.close(fig)
 
 
@@ -312,8 +321,9 @@ def make_pictures(directory, bubbles=None):
         draw_flow(means, bubbles, pictures[-1])
         fits = {top: fit for top, fit in report_collapse(means, bubbles).items() if not fit.at_edge}
         if fits:
+            top = DRAWN if DRAWN in fits else min(fits)
             pictures.append(directory / "rheology-collapse.png")
-            draw_collapse(means, bubbles, fits[min(fits)], min(fits), pictures[-1])
+            draw_collapse(means, bubbles, fits[top], top, pictures[-1])
     if curves:
         report_startup(curves)
         pictures.append(directory / "rheology-startup.png")

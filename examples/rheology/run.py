@@ -80,7 +80,7 @@ def cost(variables):
 
 
 def run_all(args, out):
-    runs = {name: variables for name, variables in chosen(args) if not (out / name).exists()}
+    runs = {name: dict(variables, tol=args.tol) for name, variables in chosen(args) if not (out / name).exists()}
     start, whole, done = time.monotonic(), sum(map(cost, runs.values())), 0.0
     with concurrent.futures.ThreadPoolExecutor(args.jobs) as pool:
         running = {pool.submit(run, args.lmp, out, *one): one for one in runs.items()}
@@ -104,6 +104,7 @@ def main():
     parser.add_argument("--rates", type=float, nargs="+", help="only flow curves of these rates")
     parser.add_argument("--drag", default="static", help='of these flow curves (%(default)s, or "contact 1.0")')
     parser.add_argument("--seeds", type=int, nargs="+", default=[2007], help="of these flow curves")
+    parser.add_argument("--tol", default="1.0e-3", help="error per step, in a DIR of its own (%(default)s)")
     parser.add_argument("--plot-only", action="store_true", help="draw from the files that are there")
     args = parser.parse_args()
     args.out.mkdir(parents=True, exist_ok=True)
