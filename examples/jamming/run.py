@@ -5,8 +5,8 @@
     python3 run.py --full                                       # more packings, larger ones, and the sizes: hours
     python3 run.py --bubbles 1000 --seeds 1 2 3 [--only 2d]     # more packings of a size
 
-Each packing has files of its own. What is there already is not run again, so a run that was stopped goes on, and packings
-of other sizes and seeds join those that DIR has.
+Each packing has files of its own. What is there already is not run again, so a run that was stopped goes on, and
+packings of other sizes and seeds join those that DIR has.
 """
 import argparse
 import concurrent.futures
