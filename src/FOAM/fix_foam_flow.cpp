@@ -116,7 +116,7 @@ void FixFoamFlow::check_foam()
     error->all(FLERR,
                "Fix foam/flow shear moves bubbles by their own velocities: fix deform must have "
                "remap none, not remap v");
-  if (pair->neighbor_drag)
+  if (pair->neighbor_drag || pair->neighbor_solve)
     error->all(FLERR,
                "Fix foam/flow shear cannot be used with drag neighbor: velocities of neighbors "
                "across a boundary that moves are not those of their images; use drag static");

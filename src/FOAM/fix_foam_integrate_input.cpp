@@ -147,15 +147,16 @@ void FixFoamIntegrate::init()
   time_then = driver.time;
   if (record.rin > 0.0) pair->hub.go_on_from(record);
 
-  if (pair->neighbor_drag && !flows.empty() && drift_given && drift_removed)
+  const bool mean = pair->neighbor_drag || pair->neighbor_solve;
+  if (mean && !flows.empty() && drift_given && drift_removed)
     error->all(FLERR,
                "Fix {}: drift remove cannot be used with drag neighbor and fix foam/flow, which "
                "moves the foam as a whole: use drift keep",
                style);
-  const bool drifts = pair->neighbor_drag && flows.empty() && domain->xperiodic &&
-                      domain->yperiodic && domain->zperiodic;
-  if (!drift_given) drift_removed = drifts && suffers_from_drift();
-  if (drifts && !drift_removed && comm->me == 0)
+  const bool drifts =
+      mean && flows.empty() && domain->xperiodic && domain->yperiodic && domain->zperiodic;
+  if (!drift_given) drift_removed = drifts && (pair->neighbor_solve || suffers_from_drift());
+  if (drifts && pair->neighbor_drag && !drift_removed && comm->me == 0)
     error->warning(FLERR,
                    "Fix {}: with neighbor drag, nothing holds the foam as a whole in a "
                    "periodic box: it drifts, faster with more steps; see keyword drift",

@@ -66,6 +66,7 @@ template <class Space> void FixFoamIntegrate::solve_drag_in(Space &space)
     const Foam::ContactSums sums = pair->contact_sums(space);
     Foam::DragSystem<D, B> s{drag_without_contacts<D>(space),
                              pair->mu_c,
+                             pair->neighbor_solve,
                              sums.contacts,
                              {sums.vsum[0], sums.vsum[1], sums.vsum[2]},
                              {},
@@ -88,11 +89,11 @@ template <class Space> void FixFoamIntegrate::solve_drag_in(Space &space)
       space.for_all(atom->nlocal + atom->nghost, affine);
       pair->sum_given();
     };
-    return Foam::solve_contact_drag(
-        s, space, atom->nlocal, error_of_drag(), gather, !flows.empty(), gather_ambient,
-        [&](const auto &functor) {
-          return foam_sum(space.template totals<Foam::DragTotals>(atom->nlocal, functor), world);
-        });
+    auto all = [&](const auto &functor) {
+      return foam_sum(space.template totals<Foam::DragTotals>(atom->nlocal, functor), world);
+    };
+    const Foam::DragMeans means{gather, gather_ambient, all};
+    return Foam::solve_contact_drag(s, space, atom->nlocal, error_of_drag(), !flows.empty(), means);
   });
   if (!found) no_solution();
 }

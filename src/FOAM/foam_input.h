@@ -173,6 +173,15 @@ class FoamInput {
 
   Value argument(const std::string &name) { return {error, style, name, next(), false}; }
 
+  // a word that may follow, and is taken if it does
+
+  bool option(const std::string &word)
+  {
+    const bool there = iarg < narg && arg[iarg] == word;
+    if (there) iarg++;
+    return there;
+  }
+
   // all that is left: pairs of a keyword and its value; the last counts
 
   void keywords(const Keywords &all)

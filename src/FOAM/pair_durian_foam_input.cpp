@@ -45,7 +45,7 @@ void PairDurianFoam::settings(int narg, char **arg)
   FoamInput input(error, "Pair style durian/foam", narg, arg);
   mu0 = input.argument("mu0").number(FoamInput::ABOVE, 0.0);
 
-  neighbor_drag = false;
+  neighbor_drag = neighbor_solve = false;
   mu_c = 0.0;
   headroom = 1.2;
   law = {};
@@ -63,9 +63,11 @@ void PairDurianFoam::settings(int narg, char **arg)
        {"drag",
         [&](const Value &v) {
           const int drag = v.one_of({"static", "neighbor", "contact"});
-          neighbor_drag = drag == 1;
-          mu_c = drag != 2 ? 0.0
-                           : input.argument("MUC of drag contact").number(FoamInput::AT_LEAST, 0.0);
+          neighbor_solve = drag == 1 && input.option("solve");
+          neighbor_drag = drag == 1 && !neighbor_solve;
+          mu_c = drag == 2 ? input.argument("MUC of drag contact").number(FoamInput::AT_LEAST, 0.0)
+                 : neighbor_solve ? mu0
+                                  : 0.0;
         }},
        {"rin",
         [&](const Value &v) {
@@ -137,7 +139,9 @@ void PairDurianFoam::write_restart_settings(FILE *fp)
                              double(hub.rin_fixed),
                              r.ain,
                              double(hub.ain_fixed),
-                             double(neighbor_drag),
+                             double(neighbor_drag    ? 1
+                                    : neighbor_solve ? 2
+                                                     : 0),
                              mu_c,
                              headroom,
                              r.tau,
@@ -160,7 +164,8 @@ void PairDurianFoam::read_restart_settings(FILE *fp)
   hub.rin_fixed = values[2] != 0.0;
   r.ain = values[3];
   hub.ain_fixed = values[4] != 0.0;
-  neighbor_drag = values[5] != 0.0;
+  neighbor_drag = values[5] == 1.0;
+  neighbor_solve = values[5] == 2.0;
   mu_c = values[6];
   headroom = values[7];
   r.tau = values[8];

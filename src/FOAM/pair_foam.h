@@ -56,9 +56,10 @@ class PairFoam : public Pair {
 
   // drag, see foam_drag.h
 
-  double mu0 = 1.0;              // coefficient
-  bool neighbor_drag = false;    // relative to neighbors' mean velocity or to a liquid at rest
-  double mu_c = 0.0;             // coefficient between bubbles in contact
+  double mu0 = 1.0;               // coefficient
+  bool neighbor_drag = false;     // relative to neighbors' mean velocity, of evaluations before
+  bool neighbor_solve = false;    // the same of this evaluation; mu_c = mu0
+  double mu_c = 0.0;    // coefficient between bubbles in contact; 0: nothing is to be solved
 
   // where LAMMPS' communication does not do it: radii of ghosts, or, on a single rank, all of ghosts
 
