@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Pictures and fits of flow curves, collapse and start-up of shear, from what run.py left in a directory.
 
-    python3 plot.py DIR [--bubbles N]
+    python3 plot.py DIR [--bubbles N] [--near DPHI]
 
 Writes DIR/rheology.png (flow curves and their slopes), rheology-collapse.png (scaling around jamming, finite size),
 rheology-startup.png, and the means in rheology.csv. Prints fits with their errors, for several windows.
@@ -26,7 +26,7 @@ RATE = r"shear rate  $\dot\gamma \mu_0 / \sigma_0$"
 STRESS = r"shear stress  $\Sigma / \sigma_0$"
 SKIP, BLOCK = 1.0, 0.5      # strain not counted at each rate; strain of the blocks whose means give the error
 FLOOR = 0.01                # relative error that no point falls below in fits: the forms fitted are not exact either
-NEAR = 0.012                # |phi - 0.843| of points that are collapsed
+NEAR = 0.0125               # |phi - 0.843| of points that are collapsed, at most
 WINDOWS = (1e-2, 1e-3, 1e-4, 1e-5)      # fastest rates of fits
 DRAWN = 1e-3                            # the one that is drawn
 
@@ -142,23 +142,23 @@ def report_yield(means, bubbles):
 
 # ------------------------------------------------------------------ collapse
 
-def near_points(means, bubbles, top, what="stress"):
+def near_points(means, bubbles, top, near, what="stress"):
     """phi, rate, value, error of ln value, of points around jamming with drag by the liquid alone."""
     points = []
     for (number, drag, phi, rate), m in means.items():
         value, error = (m.stress, m.error) if what == "stress" else (m.pressure, m.pressure_error)
-        if number == bubbles and drag == "static" and abs(phi - 0.843) <= NEAR and rate <= 1.01 * top and value > 0:
+        if number == bubbles and drag == "static" and abs(phi - 0.843) <= near and rate <= 1.01 * top and value > 0:
             points.append((phi, rate, value, np.hypot(error / value, FLOOR)))
     return np.array(points).T
 
 
-def report_collapse(means, bubbles):
+def report_collapse(means, bubbles, near):
     """Fits for some windows; those of the stress by their fastest rate."""
     fits = {}
-    print(f"\ncollapse, {bubbles} bubbles, |phi - 0.843| <= {NEAR}: value = rate^q f((phi - phi_J) / rate^(1/z nu))")
+    print(f"\ncollapse, {bubbles} bubbles, |phi - 0.843| <= {near}: value = rate^q f((phi - phi_J) / rate^(1/z nu))")
     for what in ("stress", "pressure"):
         for top in WINDOWS:
-            points = near_points(means, bubbles, top, what)
+            points = near_points(means, bubbles, top, near, what)
             if points.size == 0 or len(points[0]) < 16 or len(set(points[0])) < 4:
                 continue
             fit = Collapse(*points)
@@ -174,8 +174,8 @@ def report_collapse(means, bubbles):
 
 
 def report_sizes(means):
-    """Where there are points of several sizes: their stresses, and the slopes that they give."""
-    keys = sorted({key[1:] for key in means if key[0] == max(k[0] for k in means)})
+    """Stresses where there are points of several sizes."""
+    keys = sorted({key[1:] for key in means})
     sizes = sorted({key[0] for key in means})
     if len(sizes) > 1:
         print("\nstress by the number of bubbles")
@@ -184,7 +184,6 @@ def report_sizes(means):
             if len(of) > 1:
                 print(f"  {drag:8s}phi {phi:.4f} rate {rate:g}  "
                       + "   ".join(f"{n}: {m.stress:.3e} +- {m.error:.0e}" for n, m in of))
-    return sizes
 
 
 # ------------------------------------------------------------------ pictures
@@ -218,9 +217,9 @@ def draw_flow(means, bubbles, path):
     plt.close(fig)
 
 
-def draw_collapse(means, bubbles, fit, top, path):
+def draw_collapse(means, bubbles, fit, top, near, path):
     fig, (left, middle, right) = plt.subplots(1, 3, figsize=(13.5, 4.5), layout="constrained")
-    points = near_points(means, bubbles, top)
+    points = near_points(means, bubbles, top, near)
     phi, rate, stress = points[:3]
     phis = sorted(set(phi))
     colours = dict(zip(phis, plt.cm.viridis(np.linspace(0.0, 0.92, len(phis)))))
@@ -242,16 +241,20 @@ def draw_collapse(means, bubbles, fit, top, path):
                ylabel=r"$\eta^{-1} \,/\, |\phi - \phi_J|^{\beta}$",
                title=rf"$\beta$ = {fit.beta:.2f},  $\Delta$ = {fit.delta:.2f}")
     sizes = sorted({key[0] for key in means if key[1] == "static"})
-    rates = [r for r in (1e-3, 1e-4, 1e-5, 1e-6) if any(key[0] == sizes[-1] and key[3] == r for key in means)]
+    several = min(len(sizes), 2)
+    rates = [r for r in (1e-3, 1e-4, 1e-5, 1e-6)
+             if len({key[0] for key in means if key[1] == "static" and key[3] == r}) >= several]
     for r, colour in zip(rates, ("#1f5a96", "#c0582b", "#3a8a4d", "0.3")):
         for n, marker, line in zip(sizes, "^os", (":", "-", "--")):
             of = np.array([(key[2], m.stress, m.error) for key, m in means.items()
                            if key[0] == n and key[1] == "static" and key[3] == r and 0.83 <= key[2] <= 0.857]).T
             if of.size:
-                right.errorbar(*of, color=colour, marker=marker, ls=line, ms=4, lw=1.0, mfc="none",
-                               label=rf"{r:.0e},  {n}")
+                right.errorbar(*of, color=colour, marker=marker, ls=line, ms=4, lw=1.0, mfc="none")
+        right.plot([], [], color=colour, label=rf"$\dot\gamma$ = {r:g}")
+    for n, marker, line in zip(sizes, "^os", (":", "-", "--")):
+        right.plot([], [], color="0.3", marker=marker, ls=line, ms=4, lw=1.0, mfc="none", label=f"$N$ = {n}")
     right.set(yscale="log", xlabel=r"gas fraction  $\phi$", ylabel=STRESS, title="number of bubbles")
-    right.legend(title=r"$\dot\gamma$,  $N$", fontsize=9, handlelength=2.2)
+    right.legend(fontsize=9, handlelength=2.2)
     fig.savefig(path, pil_kwargs={"optimize": True})
     plt.close(fig)
 
@@ -306,7 +309,7 @@ def draw_startup(curves, path):
     plt.close(fig)
 
 
-def make_pictures(directory, bubbles=None):
+def make_pictures(directory, bubbles=None, near=NEAR):
     means = read_curves(directory)
     curves = {key: c for key, c in startups(directory).items() if len(c[1]) > 1}
     plt.rcParams.update(STYLE)
@@ -319,11 +322,11 @@ def make_pictures(directory, bubbles=None):
         report_sizes(means)
         pictures.append(directory / "rheology.png")
         draw_flow(means, bubbles, pictures[-1])
-        fits = {top: fit for top, fit in report_collapse(means, bubbles).items() if not fit.at_edge}
+        fits = {top: fit for top, fit in report_collapse(means, bubbles, near).items() if not fit.at_edge}
         if fits:
             top = DRAWN if DRAWN in fits else min(fits)
             pictures.append(directory / "rheology-collapse.png")
-            draw_collapse(means, bubbles, fits[top], top, pictures[-1])
+            draw_collapse(means, bubbles, fits[top], top, near, pictures[-1])
     if curves:
         report_startup(curves)
         pictures.append(directory / "rheology-startup.png")
@@ -335,8 +338,9 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("directory", type=Path)
     parser.add_argument("--bubbles", type=int, help="those of flow curves and collapse (the most frequent number)")
+    parser.add_argument("--near", type=float, default=NEAR, help="|phi - 0.843| of points collapsed (%(default)s)")
     args = parser.parse_args()
-    make_pictures(args.directory, args.bubbles)
+    make_pictures(args.directory, args.bubbles, args.near)
 
 
 if __name__ == "__main__":
