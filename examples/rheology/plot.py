@@ -45,7 +45,7 @@ def block_means(rows):
     """Means of stress and pressure over blocks of strain; by strain, since steps vary in length."""
     strain, end = rows[:, 1], rows[-1, 1]
     blocks = []
-    for k in range(int(round((end - SKIP) / BLOCK, 6))):
+    for k in range(int((end - SKIP) / BLOCK + 0.1)):      # the last line may be some steps before the end
         grid = SKIP + BLOCK * (k + (np.arange(200) + 0.5) / 200)
         blocks.append([np.interp(grid, strain, rows[:, column]).mean() for column in (2, 3)])
     return blocks
