@@ -20,6 +20,7 @@
 #include "timer.h"
 #include "update.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -211,8 +212,22 @@ double FixFoamIntegrate::error_of_drag() const
              PART * displacement() * length / natural_time());
 }
 
+// of drag by the mean of neighbors, see foam_contact_drag.h
+
+double FixFoamIntegrate::least_eigenvalue() const
+{
+  const double longest = std::max({domain->xprd, domain->yprd, dim == 3 ? domain->zprd : 0.0});
+  const double angle = 2.0 * Foam::PI * MIN(2.0 * pair->hub.record.rin / longest, 0.25);
+  return angle * angle / (2.0 * dim);
+}
+
 void FixFoamIntegrate::no_solution()
 {
+  if (pair->neighbor_solve)
+    error->all(FLERR,
+               "Fix {}: the velocities of bubbles that move with their neighbors were not found: "
+               "use drag neighbor, which follows them step by step",
+               style);
   error->all(
       FLERR,
       "Fix {}: the velocities of bubbles that drag each other were not found: mu_c = {} is too "

@@ -176,6 +176,7 @@ class FixFoamIntegrate : public Fix {
   }
   bool grows() const { return gas && gas->K > 0.0; }
   double error_of_drag() const;
+  double least_eigenvalue() const;
   double natural_time() const;
 
   // ---- the equations and where their numbers are

@@ -66,7 +66,7 @@ template <class Space> void FixFoamIntegrate::solve_drag_in(Space &space)
     const Foam::ContactSums sums = pair->contact_sums(space);
     Foam::DragSystem<D, B> s{drag_without_contacts<D>(space),
                              pair->mu_c,
-                             pair->neighbor_solve,
+                             pair->neighbor_solve ? least_eigenvalue() : 0.0,
                              sums.contacts,
                              {sums.vsum[0], sums.vsum[1], sums.vsum[2]},
                              {},

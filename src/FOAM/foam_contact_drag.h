@@ -31,7 +31,9 @@
 // for c = sum z_i g_i / sum z_i of each cluster, and that with sum z_i v_i = 0 is taken.  Who belongs to a cluster need not be
 // known: preconditioned by z_i, the iteration for A e = A g from e = 0 on stays where the sums with the weights z_i are 0, and so
 // ends at e = g - c; that for A v = z_i mu0 e at v.  A bubble without contacts has v = g.  Velocities of bubbles in a flow that
-// is imposed, v = g + u, are known, and hold the clusters that touch them: there c = 0.
+// is imposed, v = g + u, are known, and hold the clusters that touch them: there c = 0.  Residuals bound the error by the least
+// eigenvalue, other than 0, of the preconditioned matrix: about that of a lattice of bubbles for the longest wave in the box,
+// (2 pi a / L)^2 / (2 D) with a distance a between neighbors.  An error of e acts like one of a force.
 
 namespace Foam {
 
@@ -51,14 +53,15 @@ struct DragTotals {    // of one iteration; r in units of velocity
 
 template <int D, class B> struct DragSystem {
   Drag<D, B> drag;
-  double mu_c;    // mu0 for the mean of neighbors
-  bool mean;
+  double mu_c;     // mu0 for the mean of neighbors
+  double least;    // eigenvalue for the mean of neighbors, or 0: contact
   const double *contacts, *vsum[3];
   double *w[3], *r[3], *p[3];
 
+  FOAM_FUNCTION bool mean() const { return least > 0.0; }
   FOAM_FUNCTION bool alive(int i) const { return drag.b.radius(i) > 0.0; }
-  FOAM_FUNCTION bool open(int i) const { return alive(i) && !(mean && drag.ambient.imposed(i)); }
-  FOAM_FUNCTION double own(int i) const { return mean && contacts[i] > 0.0 ? 0.0 : drag.mu0; }
+  FOAM_FUNCTION bool open(int i) const { return alive(i) && !(mean() && drag.ambient.imposed(i)); }
+  FOAM_FUNCTION double own(int i) const { return mean() && contacts[i] > 0.0 ? 0.0 : drag.mu0; }
   FOAM_FUNCTION double diagonal(int i) const { return own(i) + mu_c * contacts[i]; }
   FOAM_FUNCTION double apply(int i, int k) const    // A p
   {
@@ -74,9 +77,9 @@ template <int D, class B> struct DragSystem {
     all.squares += residual * residual;
     all.product += r[k][i] * r[k][i] / diagonal(i);
   }
-  FOAM_FUNCTION double as_velocity(int i, double r) const
+  FOAM_FUNCTION double as_velocity(int i, double r) const    // the error, at most
   {
-    return r / (mean ? diagonal(i) : drag.mu0);
+    return r / (mean() ? diagonal(i) * least : drag.mu0);
   }
 };
 
@@ -204,7 +207,7 @@ template <class Gather, class Ambient, class All> struct DragMeans {
   All all;
 };
 
-// w from r and p as they were given, with a root mean square residual (over components) of at most so much.  False if it is
+// w from r and p as they were given, with a root mean square error (over components) of at most so much.  False if it is
 // not found; what is no number the judgement of the step finds.
 
 template <int D, class B, class Space, class Means>
@@ -215,8 +218,9 @@ bool conjugate_gradients(const DragSystem<D, B> &s, Space &space, int n, double 
   constexpr int MOST = 10000;
   means.gather();
   DragTotals now = means.all(StartSolution<D, B>{s});
-  const double enough = std::max(error * error * now.numbers,
-                                 ROUNDING * ROUNDING * (now.forces + (s.mean ? now.squares : 0.0)));
+  const double enough =
+      std::max(error * error * now.numbers,
+               ROUNDING * ROUNDING * (now.forces + (s.mean() ? now.squares : 0.0)));
   for (int products = 1; now.squares > enough && products < MOST; products++) {
     means.gather();
     const double alpha = now.product / means.all(AlongDirection<D, B>{s}).product;
@@ -231,9 +235,9 @@ template <int D, class B, class Space, class Means>
 bool solve_contact_drag(const DragSystem<D, B> &s, Space &space, int n, double error, bool flows,
                         const Means &means)
 {
-  if (s.mean) {
+  if (s.mean()) {
     space.for_each(n, GiveForces<D, B>{s});
-    if (!conjugate_gradients(s, space, n, error, means)) return false;
+    if (!conjugate_gradients(s, space, n, error * s.least, means)) return false;
     space.for_each(n, GiveKnown<D, B>{s});
   } else {
     if (flows) {

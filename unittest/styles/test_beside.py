@@ -5,7 +5,7 @@ import re
 import numpy as np
 import pytest
 
-from runner import data_file
+from runner import PRECISE, data_file
 from test_commands import BASIC, GAS, data, foam, packing, printed
 
 RATE = 0.02
@@ -233,6 +233,36 @@ def test_rerun_is_refused_or_warned_of(base_lmp):
     warned = base_lmp(foam(rerun, gas=""), directory=result.directory)
     assert len(warnings(warned, "rerun takes places from the dump")) == 1
     assert not warnings(result, "rerun")
+
+
+# ---- fix press/berendsen ------------------------------------------------------------------------
+
+@pytest.mark.parametrize("dim", [2, 3])
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_constant_pressure(each_lmp, dim, ranks):
+    """The box breathes by LAMMPS' own fix, with the length of each step as it was accepted: by its formula, in all directions
+    alike. A foam that exchanges gas comes to the pressure that is asked for, and keeps its gas."""
+    x, R, box = packing(dim, 10 if dim == 2 else 6)
+    target, period, bulk = 0.05, 5.0, 0.5
+    result = each_lmp(foam(f"""run 100
+thermo 1
+compute bare all pressure NULL virial
+fix barostat all press/berendsen iso {target} {target} {period} modulus {bulk}
+fix_modify barostat press bare
+variable area atom radius^{dim}
+compute gas all reduce sum v_area
+thermo_style custom step time dt vol c_bare c_gas
+{PRECISE}
+run 300""", gas="1e-3 0.1", dim=dim), files={"data": data_file([box] * dim, x, R)}, ranks=ranks)
+    step = result.thermo[-1]
+    h = np.diff(step["Time"])
+    assert h == pytest.approx(step["Dt"][1:], rel=1e-9) and h.max() > 1.5 * h.min()
+    grown = step["Volume"][1:] / step["Volume"][:-1]
+    before = step["c_bare"][1:] * grown    # output takes the same virial by the volume after the box has been moved
+    assert grown == pytest.approx((1 - h / period * (target - before) / bulk)**(dim / 3), rel=1e-9)
+    assert step["c_gas"] == pytest.approx(step["c_gas"][0], rel=1e-12)
+    assert abs(step["c_bare"][0] / target - 1) > 0.1
+    assert step["c_bare"][-1] == pytest.approx(target, rel=0.02)    # it lags behind what coarsening changes
 
 
 def test_inertia_is_warned_of(lmp):

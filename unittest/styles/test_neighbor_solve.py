@@ -1,4 +1,4 @@
-"""Drag by the mean velocity of the neighbors without a lag: velocities are those of a dense solution, cluster by cluster."""
+"""Drag by the mean velocity of the neighbors without a lag: velocities of a dense solution, cluster by cluster."""
 
 import numpy as np
 import pytest
@@ -66,7 +66,7 @@ def last_of(result, dim):
 
 
 @pytest.mark.parametrize("dim, integrator, spread", [(2, "abm", 1.0), (2, "rkc", 1.0), (3, "abm", 1.0), (3, "rkc", 1.0),
-                                                     (2, "abm", 1.25), (3, "abm", 1.15)])
+                                                     (2, "abm", 1.25), (3, "abm", 1.5)])
 @pytest.mark.parametrize("ranks", [1, 2])
 def test_dense_solution(each_lmp, dim, integrator, spread, ranks):
     """A packing, and one pulled apart until it is clusters, pairs and single bubbles. Residuals are some 2e-13 of what
@@ -77,6 +77,107 @@ def test_dense_solution(each_lmp, dim, integrator, spread, ranks):
     x, v, f, R = last_of(result, dim)
     touch = contacts_of(x, R, box)
     exact = solution(touch, f)
-    clusters = len(set(clusters_of(touch)[touch.any(1)]))
-    assert clusters > 5 if spread > 1.0 else clusters == 1
+    sizes = np.unique(clusters_of(touch), return_counts=True)[1]
+    print("clusters of", np.sort(sizes))
+    assert sizes.max() < 0.5 * len(x) and (sizes > 1).sum() > 3 if spread > 1.0 else sizes.max() > 0.9 * len(x)
     assert np.abs(v - exact).max() < 1e-9 * np.abs(exact).max()
+
+
+@pytest.mark.parametrize("integrator", ["abm", "rkc"])
+def test_error_that_is_allowed(lmp, integrator):
+    """Velocities are wrong by what moves bubbles by 2 % of the tolerance of a step, slow modes too. The least
+    eigenvalue of 600 bubbles is some 0.01, so that a residual of that size would not do."""
+    x, R, _, box = foam(2, 25)
+    tol, h = 1e-3, 0.25
+    result = lmp(case(2, pair="drag neighbor solve", gas="0 0", integrator=integrator, run=f"""run 5
+unfix step
+fix step all foam/{integrator} {tol} dt0 {h} drift keep
+run 0
+write_dump all custom last id x y z vx vy vz fx fy fz radius modify sort id format float %.17g"""),
+                 files={"data": data_file([box] * 2, x, R)})
+    x, v, f, R = last_of(result, 2)
+    exact = solution(contacts_of(x, R, box), f)
+    assert np.sqrt((exact**2).mean()) > 1e-2
+    assert np.sqrt(((v - exact)**2).mean()) < 0.02 * tol / h
+
+
+def pair_of(styles, last, R=(1.0, 0.8, 1.0)):
+    """Bubbles in a row, the first two and the last two in contact."""
+    x = np.array([[5.0, 5.0], [6.6, 5.0], [8.2, 5.0]])
+    text = HEAD.format(dim=2) + f"""
+read_data     data
+neighbor      0.3 bin
+pair_style    durian/foam 1.0 rin 1.0 drag neighbor solve
+pair_coeff    * * 1.0
+{styles}
+fix           step all foam/abm 1e-10
+{PRECISE}
+run           0
+write_dump    all custom last id x y vx vy fx fy radius modify sort id format float %.17g
+"""
+    return text, {"data": data_file([20, 20], x[:last], R[:last])}
+
+
+def test_row_of_three(each_lmp):
+    """In closed form: z = 1, 2, 1; forces (-a, a - b, b), so c = (a - b) / 4. With
+    d1 = v2 - v1 and d2 = v3 - v2 the first
+    and the last equation say that -d1 = -a - c, d2 = b - c."""
+    text, files = pair_of("", 3, (1.0, 0.8, 1.1))
+    frame = each_lmp(text, files=files).dump("last")[0]
+    f, v = frame["fx"], frame["vx"]
+    a, b = -f[0], f[2]
+    assert a > 0 and b > a
+    c = (f * [1, 2, 1]).sum() / 4
+    assert v[1] - v[0] == pytest.approx(a + c, rel=1e-9)
+    assert v[2] - v[1] == pytest.approx(b - c, rel=1e-9)
+    # and the mean velocity is taken off, the default in a periodic box
+    assert v.sum() == pytest.approx(0.0, abs=1e-12)
+
+
+def test_in_a_flow(each_lmp):
+    """A bubble in a flow moves with it and by its own force; what hangs on it follows without the flow:
+    v_1 = u + F_1, v_2 = v_1 + F_2 for a pair, alone with each other."""
+    text, files = pair_of("""
+region left block 0 5.5 INF INF INF INF
+fix flow all foam/flow region left velocity 0.3 -0.2 0.0""", 2)
+    frame = each_lmp(text, files=files).dump("last")[0]
+    F = frame["fx"]
+    assert F[0] == -F[1] and F[1] > 0.05
+    assert frame["vx"] == pytest.approx([0.3 + F[0], 0.3], rel=1e-9)
+    assert frame["vy"] == pytest.approx([-0.2, -0.2], rel=1e-9)
+
+
+@pytest.mark.parametrize("dim, integrator", [(2, "abm"), (3, "abm"), (2, "rkc")])
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_coarsens_alike_everywhere(kk_lmp, backends, dim, integrator, ranks):
+    how = dict(integrator=integrator, gas="0.3 0.3 rmin 0.5", run="run 30" if integrator == "abm" else "run 8",
+               step="1e-3" if integrator == "abm" else "1e-4")
+    plain, other = run(backends("wheel"), dim, **how), run(kk_lmp, dim, ranks=ranks, **how)
+    # solutions differ by 2 % of the tolerance of a step, of which energies see the square where forces balance
+    assert_same_run(plain.thermo[0], other.thermo[0], 1e-5)
+    phi = plain.thermo[0]["f_gas[5]"]
+    assert phi == pytest.approx(phi[0], rel=1e-12)
+
+
+def test_restart(lmp):
+    whole = run(lmp, run="restart 20 state\nrun 40", step="1e-5")
+    again = lmp(f"""
+read_restart  state.20
+neighbor      0.3 bin
+fix           gas all foam/coarsen 0.1 0.3 rmin 0.4
+fix           step all foam/abm 1e-5
+thermo_style  custom step atoms time pe f_gas[*]
+{PRECISE}
+run           20
+""", directory=whole.directory)
+    for name, column in again.thermo[0].items():
+        assert column[-1] == pytest.approx(whole.thermo[0][name][-1], rel=1e-11), name
+
+
+def test_shear_flow_is_refused(lmp):
+    x, R, v, box = foam(2, 4)
+    text = case(2, pair="drag neighbor solve", gas="0 0").replace(
+        "read_data     data\n", "read_data data\nchange_box all triclinic\n").replace(
+            "run 0", "fix d all deform 1 xy erate 0.01 remap none\nfix f all foam/flow shear\nrun 0")
+    result = lmp(text, files={"data": data_file([box] * 2, x, R, v)}, check=False)
+    assert result.returncode and "cannot be used with drag neighbor" in result.errors[0], result.errors
