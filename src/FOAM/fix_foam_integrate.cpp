@@ -218,7 +218,7 @@ double FixFoamIntegrate::least_eigenvalue() const
 {
   const double longest = std::max({domain->xprd, domain->yprd, dim == 3 ? domain->zprd : 0.0});
   const double angle = 2.0 * Foam::PI * MIN(2.0 * pair->hub.record.rin / longest, 0.25);
-  return angle * angle / (2.0 * dim);
+  return 0.25 * angle * angle / (2.0 * dim);
 }
 
 void FixFoamIntegrate::no_solution()
