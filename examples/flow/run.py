@@ -17,7 +17,7 @@ import time
 import plot
 
 HERE = Path(__file__).resolve().parent
-COST = {"vortex": 20, "couette": 15, "channel": 40, "contact": 5, "curve": 40}      # seconds, for the time to go
+COST = {"vortex": 4, "couette": 5, "channel": 15, "contact": 4, "curve": 90}      # seconds or so, for the time to go
 
 
 def run(lmp, out, script, name, variables):
