@@ -117,9 +117,12 @@ INTEGRATOR = {"dt0": number(above=0), "dtmax": number(above=0), "variable": one_
 LAW = Kind(r"\bspring\b or \bpower\b", ["spring", "power 2.5", "power 1.5"],
            {**one_of("spring", "power").bad, "with a space": "'power '"})
 
+DRAG = Kind(r"\bstatic\b or \bneighbor\b or \bcontact\b", ["static", "neighbor", "neighbor solve", "contact 0.5"],
+            one_of("static", "neighbor", "contact").bad)
+
 STYLES = [
     Style("pair", "durian/foam", "pair_style durian/foam", {"mu0": number(above=0)},
-          {"law": LAW, "drag": one_of("static", "neighbor"), "rin": number(above=0),
+          {"law": LAW, "drag": DRAG, "rin": number(above=0),
            "headroom": number(at_least=1, below=["0", "0.999", "1e-5"])}),
     Style("coeff", "durian/foam", "pair_coeff",
           {"type I": types(1), "type J": types(1), "sigma0": number(at_least=0)},
