@@ -102,6 +102,8 @@ def read_packing(path, alpha, dim, converged):
     # phi_J: pressure^(1/(alpha-1)) of the two points next to it goes to zero linearly
     root = [row["pressure"]**(1 / (alpha - 1)) for row in rows[:2]]
     phi_j = rows[0]["phi"] - root[0] * (rows[1]["phi"] - rows[0]["phi"]) / (root[1] - root[0])
+    if abs(rows[0]["phi"] - phi_j - rows[0]["distance"]) > 0.5 * rows[0]["distance"]:
+        phi_j = rows[0]["phi"] - rows[0]["distance"]    # it gave way between the two: as in.jamming found it
     points, refused = [], 0
     for row, (places, radii, edges) in zip(rows, read_frames(path.with_suffix(".lammpstrj"))):
         rin = (radii.min() + radii.max()) / 2           # as in.jamming has it

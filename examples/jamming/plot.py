@@ -145,7 +145,7 @@ def report(packings, bubbles):
     print(" " * 49 + "".join(f"{f'{low:g} to {high:g}':>17s}" for low, high in WINDOWS))
     for (system, alpha, n), seeds in sorted(packings.items()):
         table = curves(seeds)
-        if table["x"].shape[1] < 4 or n != bubbles:
+        if n != bubbles or table["x"].shape[1] < 4:
             continue
         lines = [(name, text, power, None) for name, (power, text, _) in QUANTITIES.items()]
         lines.insert(2, ("excess_n", "the same, by pressure", QUANTITIES["excess_n"][0], alpha - 1))
@@ -233,14 +233,15 @@ def draw(packings, bubbles, path):
         power, _, label = QUANTITIES[name]
         for (system, alpha), colour in COLOURS.items():
             seeds = packings.get((system, alpha, bubbles))
-            if not seeds:
+            if not seeds or len(next(iter(seeds.values()))) < 4:
                 continue
             x, y, error = values(curves(seeds), name)
             text = f"{system[0]}D, " + ("spring" if alpha == 2 else rf"power {alpha:g}")
             ax.errorbar(x, y, error, color=colour, marker="o" if alpha == 2 else "s", ms=5, ls="", label=text)
             ax.plot(x, y[3] * (x / x[3])**power(alpha), color=colour, lw=1.0, zorder=0)
         ax.set(xscale="log", yscale="log", xlabel=r"$\phi - \phi_J$", title=label)
-    axes[0].legend(fontsize=10, handlelength=1.0)
+    if axes[0].lines:
+        axes[0].legend(fontsize=10, handlelength=1.0)
     fig.savefig(path)
     plt.close(fig)
 

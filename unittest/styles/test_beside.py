@@ -240,8 +240,8 @@ def test_rerun_is_refused_or_warned_of(base_lmp):
 @pytest.mark.parametrize("dim", [2, 3])
 @pytest.mark.parametrize("ranks", [1, 2])
 def test_constant_pressure(each_lmp, dim, ranks):
-    """The box breathes by LAMMPS' own fix, with the length of each step as it was accepted: by its formula, in all directions
-    alike. A foam that exchanges gas comes to the pressure that is asked for, and keeps its gas."""
+    """The box breathes by LAMMPS' own fix, with the length of each step as it was accepted: by its formula, in all
+    directions alike. A foam that exchanges gas comes to the pressure that is asked for, and keeps its gas."""
     x, R, box = packing(dim, 10 if dim == 2 else 6)
     target, period, bulk = 0.05, 5.0, 0.5
     result = each_lmp(foam(f"""run 100
