@@ -27,7 +27,7 @@ DRAGS = [
     for style in (ABM, RKC)
     for drag in ("static", "neighbor", "neighbor solve", "contact 0.1", "contact 1.0", "contact 10.0")
 ]
-WALLS = [(dim, "spring", "static", walls, RKC) for dim in (2, 3) for walls in ("no", "yes")]
+WALLS = [(2, "spring", "static", walls, RKC) for walls in ("no", "yes")]
 TOLERANCES = [
     (2, law, drag, "no", style)
     for law, drag in (
