@@ -33,7 +33,7 @@ using namespace FixConst;
 
 void FixFoamIntegrate::initial_integrate(int)
 {
-  if (lag.active != lags())
+  if (lag.active != lags() || solved_with != pair->mu_c || solved_mean != pair->neighbor_solve)
     error->all(FLERR, "Fix {}: the drag has changed since the last run: run without 'pre no'",
                style);
   out.begin_step();
@@ -216,7 +216,9 @@ double FixFoamIntegrate::error_of_drag() const
 
 double FixFoamIntegrate::least_eigenvalue() const
 {
-  const double longest = std::max({domain->xprd, domain->yprd, dim == 3 ? domain->zprd : 0.0});
+  double longest = 0.0;    // between walls the longest wave is twice as long
+  for (int k = 0; k < dim; k++)
+    longest = std::max(longest, domain->prd[k] * (domain->periodicity[k] ? 1.0 : 2.0));
   const double angle = 2.0 * Foam::PI * MIN(2.0 * pair->hub.record.rin / longest, 0.25);
   return 0.25 * angle * angle / (2.0 * dim);
 }

@@ -124,6 +124,8 @@ class FixFoamIntegrate : public Fix {
   enum { Q, QDOT, VX_BEFORE, VY_BEFORE, VZ_BEFORE, QDOT_BEFORE, NCOLUMNS };
   FoamColumns columns{all_columns, "gas and rates", NCOLUMNS, TRAVELS};
 
+  double solved_with = 0.0;    // mu_c, and whether for the mean of neighbors, at set-up
+  bool solved_mean = false;
   FoamColumns solved{all_columns, "velocities with drag between bubbles", 3,
                      TRAVELS};    // if it is on
 

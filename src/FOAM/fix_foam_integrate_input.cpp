@@ -155,7 +155,9 @@ void FixFoamIntegrate::init()
                style);
   const bool drifts =
       mean && flows.empty() && domain->xperiodic && domain->yperiodic && domain->zperiodic;
-  if (!drift_given) drift_removed = drifts && (pair->neighbor_solve || suffers_from_drift());
+  const bool source = driver.control.scheme == Foam::Scheme::SOURCE;
+  if (!drift_given)
+    drift_removed = drifts && (suffers_from_drift() || (pair->neighbor_solve && !source));
   if (drifts && pair->neighbor_drag && !drift_removed && comm->me == 0)
     error->warning(FLERR,
                    "Fix {}: with neighbor drag, nothing holds the foam as a whole in a "
@@ -170,4 +172,6 @@ void FixFoamIntegrate::init()
   lag.active = lags();
   if (pair->neighbor_drag) lag.columns.use(atom->nmax);
   if (pair->mu_c > 0.0) solved.use(atom->nmax);
+  solved_with = pair->mu_c;
+  solved_mean = pair->neighbor_solve;
 }

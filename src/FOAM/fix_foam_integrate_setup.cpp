@@ -192,6 +192,12 @@ void FixFoamIntegrate::setup(int)
 
   list.spare_checks();
 
+  if (pair->neighbor_solve && others_act() && comm->me == 0)
+    error->warning(FLERR,
+                   "Fix {}: with drag neighbor solve, walls and forces of other fixes do not move "
+                   "a cluster of bubbles as a whole: use drag static or contact for that",
+                   style);
+
   // Fixes that come after this one in the input have not added their forces yet, and will, to
   // those in f: the rates need all of them now.  A run without set-up has not taken l from v.
 

@@ -178,7 +178,8 @@ void PairDurianFoam::read_restart_settings(FILE *fp)
   // LAMMPS reads what is there, be it a damaged file or that of another version of this style
 
   const bool sound = mu0 > 0.0 && mu_c >= 0.0 && r.rin >= 0.0 && r.ain >= 0.0 && headroom >= 1.0 &&
-                     r.tau >= 0.0 && r.removed_bubbles >= 0.0;
+                     r.tau >= 0.0 && r.removed_bubbles >= 0.0 &&
+                     (values[5] == 0.0 || values[5] == 1.0 || (neighbor_solve && mu_c > 0.0));
   if (!sound || !std::isfinite(mu0 + mu_c + r.rin + r.ain + headroom + r.tau + r.removed_bubbles +
                                r.removed_gas))
     error->all(FLERR,

@@ -83,6 +83,24 @@ def test_dense_solution(each_lmp, dim, integrator, spread, ranks):
     assert np.abs(v - exact).max() < 1e-9 * np.abs(exact).max()
 
 
+@pytest.mark.parametrize("dim", [2, 3])
+def test_dense_solution_in_a_flow(lmp, dim):
+    """Bubbles in the lower part of the box are in a flow, and hold the others; mu0 is 2."""
+    x, R, v, box = foam(dim, 12 if dim == 2 else 5)
+    u = np.array([0.3, -0.2, 0.1][:dim])
+    text = case(dim, gas="0 0", pair="drag neighbor solve", run=f"""
+region low block INF INF INF {0.4 * box} INF INF
+fix flow all foam/flow region low velocity 0.3 -0.2 {0.1 if dim == 3 else 0}
+run 5
+""" + LAST.format(integrator="abm")).replace("durian/foam 1.0", "durian/foam 2.0")
+    result = lmp(text, files={"data": data_file([box] * dim, x, R, v)})
+    x, v, f, R = last_of(result, dim)
+    known = x[:, 1] % box < 0.4 * box
+    exact = solution(contacts_of(x, R, box), f / 2.0, np.tile(u, (len(x), 1)), known)
+    assert 0.2 < known.mean() < 0.6
+    assert np.abs(v - exact).max() < 1e-9 * np.abs(exact).max()
+
+
 @pytest.mark.parametrize("integrator", ["abm", "rkc"])
 def test_error_that_is_allowed(lmp, integrator):
     """Velocities are wrong by what moves bubbles by 2 % of the tolerance of a step, slow modes too. The least
@@ -181,3 +199,28 @@ def test_shear_flow_is_refused(lmp):
             "run 0", "fix d all deform 1 xy erate 0.01 remap none\nfix f all foam/flow shear\nrun 0")
     result = lmp(text, files={"data": data_file([box] * 2, x, R, v)}, check=False)
     assert result.returncode and "cannot be used with drag neighbor" in result.errors[0], result.errors
+
+
+def test_with_scheme_source(lmp):
+    """It knows no drift remove, the default otherwise."""
+    x, R, v, box = foam(2, 6)
+    result = lmp(case(2, pair="drag neighbor solve", step="1e-3 scheme source", run="run 5"),
+                 files={"data": data_file([box] * 2, x, R, v)})
+    assert result.thermo[0]["Step"][-1] == 5
+
+
+def test_forces_of_other_fixes_are_warned_of(lmp):
+    x, R, v, box = foam(2, 6)
+    for pair, told in ("drag neighbor solve", 1), ("drag static", 0):
+        result = lmp(case(2, pair=pair, after="fix up all addforce 0 0.1 0"),
+                     files={"data": data_file([box] * 2, x, R, v)})
+        assert result.screen.count("do not move a cluster of bubbles") == told
+
+
+def test_change_of_drag_needs_a_set_up(lmp):
+    x, R, v, box = foam(2, 6)
+    result = lmp(case(2, gas="0 0", run="""run 5
+pair_style durian/foam 1.0 drag neighbor solve
+pair_coeff * * 1.0
+run 5 pre no"""), files={"data": data_file([box] * 2, x, R, v)}, check=False)
+    assert result.returncode and "the drag has changed" in result.errors[0], result.errors
