@@ -207,6 +207,8 @@ template <class Gather, class Ambient, class All> struct DragMeans {
   Ambient gather_ambient;
   All all;
 };
+template <class Gather, class Ambient, class All>    // for C++17
+DragMeans(Gather, Ambient, All)->DragMeans<Gather, Ambient, All>;
 
 // w from r and p as they were given, with a root mean square error (over components) of at most so much.  False if it is
 // not found; what is no number the judgement of the step finds.
