@@ -162,6 +162,8 @@ def main():
         runs = [(args.backend or "wheel", ranks) for ranks in settings["ranks"]]
         if not args.backend and not args.update:
             runs += [(backend, 1) for backend in KOKKOS]
+        if not settings.get("kokkos", True):
+            runs = [(backend, ranks) for backend, ranks in runs if not BACKENDS[backend].kokkos]
         for backend, ranks in runs:
             try:
                 outcome = test(script, settings, ranks, BACKENDS[backend], args.update)
