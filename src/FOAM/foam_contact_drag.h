@@ -31,10 +31,10 @@
 // for c = sum z_i g_i / sum z_i of each cluster, and that with sum z_i v_i = 0 is taken.  Who belongs to a cluster need not be
 // known: preconditioned by z_i, the iteration for A e = A g from e = 0 on stays where the sums with the weights z_i are 0, and so
 // ends at e = g - c; that for A v = z_i mu0 e at v.  A bubble without contacts has v = g.  Velocities of bubbles in a flow that
-// is imposed, v = g + u, are known, and hold the clusters that touch them: there c = 0.  Residuals are taken to bound the error by the least
-// eigenvalue, other than 0, of the preconditioned matrix: about that of a lattice of bubbles for the longest wave in the box,
-// (2 pi a / L)^2 / (2 D) with a distance a between neighbors, of which a quarter is taken, since disorder makes it smaller.  An
-// error of e acts like one of a force.
+// is imposed, v = g + u, are known, and hold the clusters that touch them: there c = 0.  Residuals are taken to bound the error
+// by the least eigenvalue, other than 0, of the preconditioned matrix: about that of a lattice of bubbles for the longest wave in
+// the box, (2 pi a / L)^2 / (2 D) with a distance a between neighbors, of which a quarter is taken, since disorder makes it
+// smaller.  An error of e acts like one of a force.
 
 namespace Foam {
 

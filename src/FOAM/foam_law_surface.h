@@ -21,8 +21,8 @@ namespace Foam {
 // = overlap.  A wall (R_j = 0) does not deform.  With f = F / SIGMA,
 //   Delta(f; R) = 2 f / (2 + s),  s = sqrt(4 + 74 f / R) = df / dDelta,
 // so that f of the overlap is the root of a concave function.  Newton's method finds it from the sum of the limits for small
-// and for large overlaps: to 1e-14 in four steps for radii up to 100 to 1, in
-// fewer for like ones: see unittest/physics/test_laws.cpp.
+// and for large overlaps: to 1e-14 in four steps for radii up to 100 to 1, in fewer for like ones: see
+// unittest/physics/test_laws.cpp.
 //
 // sigma0 of the pair's types does not enter, but for 0, which switches the pair off.
 
