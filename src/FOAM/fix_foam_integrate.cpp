@@ -104,6 +104,7 @@ bool FixFoamIntegrate::history_at_accept() const
 void FixFoamIntegrate::accept(double step)
 {
   if (has_history() && history_at_accept()) keep_history();
+  if (paths) add_to_path();
   if (gas) remove_small();    // lets bubbles grow a little: adds to totals.ahead
 
   list.state_has_changed();
@@ -184,6 +185,12 @@ void FixFoamIntegrate::return_to_start()
 {
   FoamHost space(lmp, groupbit);
   return_to_start_in(space);
+}
+
+void FixFoamIntegrate::add_to_path()
+{
+  FoamHost space(lmp, groupbit);
+  add_to_path_in(space);
 }
 
 void FixFoamIntegrate::take_listed()
@@ -306,7 +313,9 @@ void FixFoamIntegrate::evaluate(double later)
 
 void FixFoamIntegrate::final_integrate()
 {
-  for (FoamFollower *one : followers) one->accepted(driver.h_last, out.due(this));
+  const bool output_due = out.due(this);
+  for (FoamFollower *one : followers) one->accepted(driver.h_last, output_due);
+  if (output_due) show_path();
   if (!evaluates_again()) return;
   evaluations++;
   solve_drag();

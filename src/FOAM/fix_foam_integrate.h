@@ -136,6 +136,12 @@ class FixFoamIntegrate : public Fix {
 
   FoamColumns residuals{all_columns, "residuals of places", 3, TRAVELS};
 
+  // lengths of paths, if asked for; shown to the outside as the vector of the fix
+
+  bool paths = false;
+  FoamColumns path{all_columns, "lengths of paths", 1, TRAVELS};
+  void show_path() { vector_atom = paths ? path[0] : nullptr; }    // on the host, up to date
+
   // per bubble, of one step or one neighbor list
 
   enum { XSTART, YSTART, ZSTART, QSTART, RSTART, NSTART };
@@ -198,6 +204,7 @@ class FixFoamIntegrate : public Fix {
   virtual void redistribute(double factor);
   virtual void return_to_start();
   virtual void take_listed();
+  virtual void add_to_path();
   virtual double largest_radius();    // on this rank
   virtual double count_bubbles();     // of this rank
   virtual void shift_by_images(double sign);
@@ -216,6 +223,7 @@ class FixFoamIntegrate : public Fix {
   template <class Space> void redistribute_in(Space &, double factor);
   template <class Space> void return_to_start_in(Space &);
   template <class Space> void take_listed_in(Space &);
+  template <class Space> void add_to_path_in(Space &);
   template <class Space> double largest_radius_in(Space &);
   template <class Space> double count_bubbles_in(Space &);
   template <class Space> void solve_drag_in(Space &);
@@ -374,6 +382,15 @@ template <class Space> void FixFoamIntegrate::return_to_start_in(Space &space)
 template <class Space> void FixFoamIntegrate::take_listed_in(Space &space)
 {
   space.for_each(atom->nlocal, Foam::TakeListed<typename Space::Bubbles>{state(space)});
+}
+
+template <class Space> void FixFoamIntegrate::add_to_path_in(Space &space)
+{
+  using B = typename Space::Bubbles;
+  Foam::with_dimension(dim, [&]<int D>() {
+    const Foam::AddToPath<D, B> functor{state(space), space.column(path, 0)};
+    space.for_each(atom->nlocal, functor);
+  });
 }
 
 template <class Space> double FixFoamIntegrate::largest_radius_in(Space &space)

@@ -80,12 +80,22 @@ void FixFoamIntegrate::settings(int narg, char **arg, const FoamInput::Keywords 
        [&](const Value &v) {
          driver.control.growth = v.number(FoamInput::ABOVE, 1.0);
        }},
+      {"path",
+       [&](const Value &v) {
+         paths = v.one_of({"no", "yes"}) == 1;
+       }},
       {"drift", [&](const Value &v) {
          drift_removed = v.one_of({"keep", "remove"}) == 1;
          drift_given = true;
        }}};
   all.insert(all.end(), own.begin(), own.end());
   input.keywords(all);
+
+  if (!paths) return;
+  peratom_flag = 1;
+  size_peratom_cols = 0;
+  peratom_freq = 1;
+  path.use(atom->nmax);
 }
 
 // The last that a constructor does: a constructor that ends in an error has no callbacks to take back,

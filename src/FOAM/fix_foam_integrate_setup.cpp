@@ -273,6 +273,7 @@ void FixFoamIntegrate::setup(int)
                "timestep command",
                style, h);
   set_timestep(MIN(h, largest_step()));
+  show_path();
 
   take_population();
   if (gas) {

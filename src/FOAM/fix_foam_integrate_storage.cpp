@@ -25,6 +25,7 @@ using namespace LAMMPS_NS;
 void FixFoamIntegrate::grow_arrays(int nmax)
 {
   for (FoamColumns *all : travelling()) all->grow(nmax);
+  show_path();    // elsewhere now
 }
 
 void FixFoamIntegrate::copy_arrays(int i, int j, int)

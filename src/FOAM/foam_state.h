@@ -244,6 +244,23 @@ template <int D, class B> struct ReturnToStart {
   }
 };
 
+// the way that an accepted step has gone, straight
+
+template <int D, class B> struct AddToPath {
+  static constexpr const char *NAME = "foam: add to path";
+  State<B> s;
+  double *path;
+  FOAM_FUNCTION void operator()(int i) const
+  {
+    double squared = 0.0;
+    for (int k = 0; k < D; k++) {
+      const double way = s.b.place(i, k) - s.start[k][i];
+      squared += way * way;
+    }
+    path[i] += sqrt(squared);
+  }
+};
+
 template <class B> struct TakeListed {
   static constexpr const char *NAME = "foam: take listed";
   State<B> s;

@@ -6,6 +6,7 @@
 ------------------------------------------------------------------------- */
 
 #include "compute_foam_bubble.h"
+#include "create_foam.h"
 #include "fix_foam_abm.h"
 #include "fix_foam_coarsen.h"
 #include "fix_foam_contacts.h"
@@ -13,6 +14,7 @@
 #include "fix_foam_rkc.h"
 #include "fix_foam_wall.h"
 #include "pair_durian_foam.h"
+#include "relax_foam.h"
 
 #ifdef FOAM_KOKKOS
 #include "compute_foam_bubble_kokkos.h"
@@ -45,7 +47,7 @@ struct lammpsplugin {
   const char *info;
   const char *author;
   union {
-    void *(*v1)(void *);                  // pair styles
+    void *(*v1)(void *);                  // pair styles, commands
     void *(*v2)(void *, int, char **);    // fixes and computes
   } creator;
   void *handle;
@@ -62,6 +64,11 @@ namespace {
 template <class Style> void *make_pair_style(void *lmp)
 {
   return static_cast<Pair *>(new Style(static_cast<LAMMPS *>(lmp)));
+}
+
+template <class Style> void *make_command(void *lmp)
+{
+  return static_cast<Command *>(new Style(static_cast<LAMMPS *>(lmp)));
 }
 
 template <class Base, class Style> void *make_style(void *lmp, int narg, char **arg)
@@ -109,6 +116,14 @@ void lammpsplugin_init(void *lmp, void *handle, void *regfunc)
     announce(&plugin, lmp);
     brought("compute", name);
   };
+  auto command = [&]<class Style>(const char *name, const char *info) {
+    plugin.style = "command";
+    plugin.name = name;
+    plugin.info = info;
+    plugin.creator.v1 = make_command<Style>;
+    announce(&plugin, lmp);
+    brought("command", name);
+  };
   const char *const coarsen = "fix foam/coarsen: gas exchange between bubbles";
   const char *const ages = "fix foam/contacts: how long bubbles have been in contact";
   const char *const flow = "fix foam/flow: a flow of the liquid between the bubbles";
@@ -124,6 +139,8 @@ void lammpsplugin_init(void *lmp, void *handle, void *regfunc)
   fix.operator()<FixFoamRKC>("foam/rkc", rkc);
   fix.operator()<FixFoamWall>("foam/wall", wall);
   compute.operator()<ComputeFoamBubble>("foam/bubble");
+  command.operator()<CreateFoam>("create_foam", "create_foam: a box, and bubbles in it");
+  command.operator()<RelaxFoam>("relax_foam", "relax_foam: to rest, at a gas fraction or pressure");
 
 #ifdef FOAM_KOKKOS
   styles += ", each also with /kk";

@@ -60,6 +60,7 @@ class FixFoamIntegrateKokkos : public FoamTravellingKokkos<Style, DeviceType> {
     this->take_listed_in(space);
     this->pair->take_list();
   }
+  void add_to_path() override { this->add_to_path_in(space); }
   double largest_radius() override { return this->largest_radius_in(space); }
   void solve_drag() override { this->solve_drag_in(space); }
   double count_bubbles() override { return this->count_bubbles_in(space); }

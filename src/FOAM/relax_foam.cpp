@@ -1,0 +1,221 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   This software is distributed under the GNU General Public License.
+   Wet-foam package: see the README file of the package.
+------------------------------------------------------------------------- */
+
+#include "relax_foam.h"
+
+#include "foam_input.h"
+#include "foam_physics.h"
+#include "pair_foam.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "compute.h"
+#include "domain.h"
+#include "error.h"
+#include "fix.h"
+#include "input.h"
+#include "modify.h"
+#include "update.h"
+#include "utils.h"
+
+#include <algorithm>
+#include <cmath>
+
+using namespace LAMMPS_NS;
+
+/* ----------------------------------------------------------------------
+   relax_foam keyword value ...
+------------------------------------------------------------------------- */
+
+void RelaxFoam::command(int narg, char **arg)
+{
+  settings(narg, arg);
+  if (!domain->box_exist || atom->natoms == 0)
+    error->all(FLERR, "Relax_foam: there is no bubble yet: see create_foam");
+  pair = PairFoam::of(lmp);
+  if (!pair) error->all(FLERR, "Relax_foam needs one pair_style durian/foam");
+  bool integrated = false, exchanges = false;
+  for (auto &ifix : modify->get_fix_list()) {
+    if (FoamHub::integrates(ifix)) integrated = true;
+    if (utils::strmatch(ifix->style, "^foam/coarsen")) exchanges = true;
+  }
+  if (minimize.empty() && !integrated)
+    error->all(FLERR, "Relax_foam with method run needs fix foam/rkc or foam/abm");
+  if (exchanges)
+    error->all(FLERR, "Relax_foam keeps the radii: give it before fix foam/coarsen, or unfix that");
+  if ((phi > 0.0 || pressure > 0.0) && domain->triclinic)
+    error->all(
+        FLERR,
+        "Relax_foam scales orthogonal boxes only: with a tilt, use neither phi nor pressure");
+
+  if (phi > 0.0) {
+    relax();
+    const double now = gas_fraction();
+    scale(std::pow(now / phi, 1.0 / domain->dimension));
+    if (comm->me == 0)
+      utils::logmesg(lmp, "Relax_foam: box scaled from gas fraction {:.6g} to {:.6g}\n", now, phi);
+    relax();
+  }
+  if (pressure > 0.0)
+    reach_pressure();
+  else
+    relax_until_rest();
+}
+
+void RelaxFoam::settings(int narg, char **arg)
+{
+  using Value = FoamInput::Value;
+  FoamInput input(error, "Relax_foam", narg, arg);
+  input.keywords({{"phi",
+                   [&](const Value &v) {
+                     phi = v.number(FoamInput::ABOVE, 0.0);
+                   }},
+                  {"pressure",
+                   [&](const Value &v) {
+                     pressure = v.number(FoamInput::ABOVE, 0.0);
+                   }},
+                  {"within",
+                   [&](const Value &v) {
+                     tolerance = v.between(0.0, 1.0);
+                   }},
+                  {"steps",
+                   [&](const Value &v) {
+                     steps = v.integer(1, MAXSMALLINT);
+                   }},
+                  {"rounds",
+                   [&](const Value &v) {
+                     rounds = v.integer(1, MAXSMALLINT);
+                   }},
+                  {"limit",
+                   [&](const Value &v) {
+                     limit = v.number(FoamInput::ABOVE, 0.0);
+                   }},
+                  {"method", [&](const Value &v) {
+                     minimize.clear();
+                     if (v.one_of({"run", "minimize"}) == 0) return;
+                     auto word = [&](const char *what, bool whole) {
+                       const auto value = input.argument(std::string("method minimize ") + what);
+                       return whole
+                                  ? fmt::format(" {}", value.integer(1, MAXSMALLINT))
+                                  : fmt::format(" {:.17g}", value.number(FoamInput::AT_LEAST, 0.0));
+                     };
+                     minimize = word("etol", false);
+                     minimize += word("ftol", false);
+                     minimize += word("maxiter", true);
+                     minimize += word("maxeval", true);
+                   }}});
+}
+
+void RelaxFoam::relax()
+{
+  if (minimize.empty())
+    input->one(fmt::format("run {} post no", steps));
+  else
+    input->one("minimize" + minimize);
+}
+
+// Until the energy changes by less than limit of it in a unit of time, 2 |E2 - E1| / ((E1 + E2) (t2 - t1)); loose
+// bubbles lose all of it, and then rest at some 1e-12 of what was there.
+
+void RelaxFoam::relax_until_rest()
+{
+  relax();
+  if (!minimize.empty()) return;
+  double e1 = energy(), t1 = update->atime;
+  energy_most = std::max(energy_most, e1);
+  for (int round = 1; round <= rounds; round++) {
+    relax();
+    update->update_time();
+    const double e2 = energy(), t2 = update->atime;
+    const double floor = 1.0e-12 * energy_most;
+    const double change =
+        e1 + e2 > floor ? 2.0 * std::abs(e2 - e1) / ((e1 + e2 + floor) * (t2 - t1)) : 0.0;
+    if (comm->me == 0)
+      utils::logmesg(
+          lmp,
+          "Relax_foam: round {}, energy {:.8g}, of it {:.3g} in a unit of time, limit {:.3g}\n",
+          round, e2, change, limit);
+    if (change < limit) return;
+    e1 = e2;
+    t1 = t2;
+  }
+  if (comm->me == 0)
+    error->warning(FLERR, "Relax_foam: the energy does not rest after {} rounds of {} steps",
+                   rounds, steps);
+}
+
+// ln phi by the secant of the last two pressures, no more than 5 % at once. A foam without pressure is compressed
+// by 2 % of its gas fraction until it has one.
+
+void RelaxFoam::reach_pressure()
+{
+  constexpr double MOST = 0.05, COMPRESS = 0.02, FIRST = 0.002;
+  double step = 0.0, before = 0.0;
+  for (int n = 0; n <= rounds; n++) {
+    relax_until_rest();
+    const double now = pressure_now(), off = pressure - now;
+    if (comm->me == 0)
+      utils::logmesg(lmp, "Relax_foam: pressure {:.8g} at gas fraction {:.8g}, wanted {:.8g}\n",
+                     now, gas_fraction(), pressure);
+    if (std::abs(off) <= tolerance * pressure) return;
+    const double slope = step != 0.0 ? (now - before) / step : 0.0;    // dp / d ln phi
+    if (now <= 1.0e-3 * pressure)
+      step = COMPRESS;
+    else if (slope > 0.0)
+      step = std::clamp(off / slope, -MOST, MOST);
+    else
+      step = off > 0.0 ? FIRST : -FIRST;
+    before = now;
+    scale(std::exp(-step / domain->dimension));
+  }
+  error->all(
+      FLERR,
+      "Relax_foam: no pressure of {} within {} of it after {} changes of the box; see keywords "
+      "within, rounds, limit",
+      pressure, tolerance, rounds);
+}
+
+void RelaxFoam::scale(double factor)
+{
+  std::string command = "change_box all";
+  for (int k = 0; k < domain->dimension; k++)
+    command += fmt::format(" {} scale {:.17g}", "xyz"[k], factor);
+  input->one(command + " remap");
+}
+
+double RelaxFoam::
+    energy()    // known at the last step of a run or a minimization, where thermo output has it
+{
+  Compute *pe = modify->get_compute_by_id("thermo_pe");
+  return pe->invoked_scalar == update->ntimestep ? pe->scalar : pe->compute_scalar();
+}
+
+double RelaxFoam::pressure_now()
+{
+  Compute *press = modify->add_compute("relax_foam_press all pressure NULL virial");
+  press->addstep(update->ntimestep);
+  input->one("run 0 post no");
+  const double p = press->compute_scalar();
+  modify->delete_compute("relax_foam_press");
+  return p;
+}
+
+double RelaxFoam::gas_fraction()
+{
+  const int dim = domain->dimension;
+  pair->hub.find_group();
+  double mine = 0.0, all = 0.0;
+  for (int i = 0; i < atom->nlocal; i++)
+    if (pair->hub.groupbit == Foam::GROUP_ALL || (atom->mask[i] & pair->hub.groupbit))
+      mine += std::pow(atom->radius[i], dim);
+  MPI_Allreduce(&mine, &all, 1, MPI_DOUBLE, MPI_SUM, world);
+  double volume = 1.0;
+  for (int k = 0; k < dim; k++) volume *= domain->prd[k];
+  return all * Foam::with_dimension(dim, []<int D>() { return Foam::CONTENT<D>; }) / volume;
+}
