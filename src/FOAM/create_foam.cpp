@@ -41,23 +41,25 @@ void CreateFoam::command(int narg, char **arg)
     error->all(FLERR, "Create_foam needs atom_style sphere 1, in which radii change");
   settings(narg, arg);
 
-  // lengths of the sites, or those that give phi; every rank sums up all bubbles, in the same order
+  // a volume of 2 <R> cubed for each site, or what gives phi, in the shape that is wanted; every rank sums up all
+  // bubbles, in the same order
 
   const int dim = domain->dimension;
   const Foam::Grid grid(dim, bubbles, relative);
-  double length[3] = {1.0, 1.0, 1.0}, volume = 1.0;
+  double volume = 1.0, shape = 1.0;
   for (int k = 0; k < dim; k++) {
-    length[k] = 2.0 * sizes.mean * static_cast<double>(grid.sites[k]);
-    volume *= length[k];
+    volume *= 2.0 * sizes.mean * static_cast<double>(grid.sites[k]);
+    shape *= relative[k];
   }
   if (phi > 0.0) {
     double content = 0.0;
     for (bigint n = 0; n < bubbles; n++)
       content += std::pow(sizes.radius(Foam::Draws(seed, n), n, bubbles), dim);
     content *= Foam::with_dimension(dim, []<int D>() { return Foam::CONTENT<D>; });
-    const double scale = std::pow(content / (phi * volume), 1.0 / dim);
-    for (int k = 0; k < dim; k++) length[k] *= scale;
+    volume = content / phi;
   }
+  double length[3] = {1.0, 1.0, 1.0};
+  for (int k = 0; k < dim; k++) length[k] = relative[k] * std::pow(volume / shape, 1.0 / dim);
 
   make_box(length);
   make_bubbles(grid, length);

@@ -94,7 +94,7 @@ struct Sizes {
 };
 
 // A grid of about so many sites in each dimension as the box's relative lengths have it: whole rows, with room for
-// all bubbles.  A site has the spacing 2 <R>; the last row (2D) or layer (3D) need not be full.
+// all bubbles.  The last row (2D) or layer (3D) need not be full.
 
 struct Grid {
   std::int64_t sites[3] = {1, 1, 1};
@@ -126,7 +126,7 @@ struct Grid {
   }
 };
 
-// By how much bubble is off its site, in <R>: in any direction, by a length uniform in (0, 1)
+// By how much a bubble is off its site, in halves of a site: in any direction, by a length uniform in (0, 1)
 
 inline void displacement(int dimension, const Draws &draws, double (&by)[3])
 {
