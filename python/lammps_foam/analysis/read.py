@@ -71,7 +71,7 @@ def numbers(rows: list[bytes], columns: int, path: Path, first: int) -> Array:
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("error", DeprecationWarning)    # numpy's, of text that is no number
-            table = np.fromstring(b"".join(rows), sep=" ")    
+            table = np.fromstring(b"".join(rows), sep=" ")
     except (ValueError, DeprecationWarning):
         table = np.empty(0)
     if table.size != len(rows) * columns:
