@@ -13,12 +13,11 @@ from .thesis_input import Foam, Unusable
 # of series.csv; lengths in units of <R_in>
 COLUMNS = {
     "step": "$(step)", "time": "$(time:%.15g)", "tau": "$(f_gas[1]:%.10g)", "N": "$(f_gas[2]:%.0f)",
-    "R": "$(f_gas[3]:%.10g)", "Rmax": "$(f_gas[4]:%.10g)", "phi": "$(f_gas[5]:%.15g)", "energy": "$(pe:%.12g)",
+    "R": "$(f_gas[3]:%.10g)", "Rmax": "$(f_gas[4]:%.10g)", "phi": "$(f_gas[5]:%.12g)", "energy": "$(pe:%.12g)",
     "path": "$(v_path:%.10g)", "msd": "$(v_msd:%.10g)", "vvar": "$(v_vvar:%.10g)", "edurian": "$(c_edurian:%.12g)",
-    "h": "$(f_step[2]:%.6g)", "evaluations": "$(f_step[5]:%.0f)",
+    "h": "$(f_step[2]:%.6g)",
 }
-SECTIONS = ("settings", "start", "mechanics", "relaxation", "coarsening", "first restart file", "run", "end")
-NEW_ONLY = ("start", "relaxation", "first restart file")    # not in a run that goes on
+SECTIONS = ("settings", "start", "mechanics", "relaxation", "coarsening", "first line", "run", "end")
 
 
 def heading(section: str) -> str:
@@ -44,9 +43,9 @@ def new_run(foam: Foam, source: str, integrator: str = "abm", tolerance: float |
         "start": _start(foam),
         "mechanics": _mechanics(foam),
         "relaxation": _relaxation(foam, integrator),
-        "coarsening": _coarsening(foam, integrator, gzip),
-        "first restart file": _first_restart(),
-        "run": _run(save_steps is None),
+        "coarsening": _coarsening(foam, integrator),
+        "first line": _first_line(),
+        "run": _run(foam, gzip, save_steps is None),
         "end": _end(foam),
     }
     text = f"# A wet foam, written by lammps-foam run from {source} ({foam.form} form):\n#   lmp -in in.foam\n"
@@ -110,18 +109,7 @@ boundary  {boundary}{'':14s} # f: a wall, p: periodic
 atom_style sphere 1               # radii change, and are communicated
 create_foam ${{N}} ${{seed}} start grid box {box} sizes normal ${{mean}} ${{std}} rmin ${{rmin}}
 
-{_shape(foam)}
-# tables are new
-{_tables("file", ','.join(COLUMNS), "no", "yes")}"""
-
-
-def _tables(write: str, title: str, append: str, first: str) -> str:
-    """Whether files are begun or go on: fix print begins with the title, a dump with the present state."""
-    return f"""variable  write string {write}
-variable  title string "{title}"
-variable  append string {append}
-variable  first string {first}
-"""
+{_shape(foam)}"""
 
 
 def _shape(foam: Foam) -> str:
@@ -161,11 +149,13 @@ thermo_style custom step time pe f_step[2] f_step[5] cpu
 thermo_modify norm no flush yes colname f_step[2] h colname f_step[5] evals
 relax_foam phi ${{phi}} steps ${{nrelax}} rounds ${{rounds}} limit ${{limit}}
 unfix     step
+thermo_style one
 reset_timestep 0 time 0.0
+write_restart restart.*          # the relaxed foam
 """
 
 
-def _coarsening(foam: Foam, integrator: str, gzip: bool) -> str:
+def _coarsening(foam: Foam, integrator: str) -> str:
     text = f"""fix       step all {_integrator(integrator)} path yes
 fix       gas all foam/coarsen ${{K}} ${{kappa}} rmin ${{rmin}} nmin ${{end}}
 """
@@ -191,28 +181,19 @@ thermo_modify norm no flush yes colname f_gas[1] tau colname f_gas[2] N colname 
           colname f_gas[5] phi colname v_path path colname v_msd msd colname v_vvar vvar &
           colname c_edurian edurian colname f_step[2] h colname f_step[5] evals
 """
-    text += f"""
-# time series; lengths in units of <R_in>
-fix       series all print ${{every}} &
-{_line()} &
-          ${{write}} series.csv screen no title ${{title}}
-"""
-    if foam.frequency > 0:
-        text += _snapshots(gzip)
     return text
 
 
 def _line() -> str:
     """A line of series.csv, on lines that LAMMPS joins."""
-    values = list(COLUMNS.values())
     rows, row = [], ""
-    for value in values:
+    for value in COLUMNS.values():
         if len(row) + len(value) > 90:
             rows.append(row)
             row = ""
         row += f"{value},"
     rows.append(row.rstrip(","))
-    return '"' + "&\n".join(rows) + '"'
+    return "&\n".join(rows)
 
 
 def _flow(foam: Foam) -> str:
@@ -252,10 +233,18 @@ DUMP_FORMAT = ("sort id time yes format float %.9g colname f_step path colname c
                "          colname c_b[1] energy colname c_b[3] rdot colname c_b[4] contacts")
 
 
-def _first_restart() -> str:
-    return """# the state in which coarsening begins
-write_restart restart.*
-"""
+def _first_line() -> str:
+    return f"""# of series.csv; lengths are in units of <R_in>
+run       0 post no
+print     "{','.join(COLUMNS)}" file series.csv screen no
+variable  title string &
+{_line()}
+{_tables("no", "yes")}"""
+
+
+def _tables(append: str, first: str) -> str:
+    """Whether a dump is begun or goes on, and whether it begins with the present state."""
+    return f"variable  append string {append}\nvariable  first string {first}\n"
 
 
 BY_TIME = """# Restart files by wall time: the next after as many steps as take ${save} seconds, by the steps so far.
@@ -270,8 +259,14 @@ restart   v_next restart.*
 BY_STEPS = "restart   ${save} restart.*\n"
 
 
-def _run(by_time: bool) -> str:
-    return f"""{BY_TIME if by_time else BY_STEPS}
+def _run(foam: Foam, gzip: bool, by_time: bool) -> str:
+    return f"""# time series: title is the line before the first of this run
+variable  line equal (floor(step/v_every)+1)*v_every
+fix       series all print v_line &
+"{_line()}" &
+          append series.csv screen no title ${{title}}
+{_snapshots(gzip) if foam.frequency > 0 else ""}
+{BY_TIME if by_time else BY_STEPS}
 # A file named stop ends the run, after a step that is a multiple of ${{every}}, so that it can be resumed
 variable  stop equal is_file(stop)
 fix       stop all halt ${{every}} v_stop > 0 error soft message no
@@ -286,7 +281,7 @@ def _end(foam: Foam) -> str:
 # the last state, and its line in series.csv if it has none yet
 if "$(step%v_every) == 0" then "jump SELF state"
 print     &
-{_line()} &
+"{_line()}" &
           append series.csv screen no
 label     state
 write_dump all custom last.lammpstrj &
@@ -312,17 +307,16 @@ def sections(text: str, name: str) -> dict[str, str]:
 def going_on(text: str, name: str, restart: str, title: str | None) -> str:
     """The text of in.resume: in.foam, but from a restart file.
 
-    title: the line of series.csv that comes before those of this run; None if all tables are to be begun anew.
+    title: the last line of series.csv up to the restart file; None if that is of the relaxed foam, without tables.
     """
     found = sections(text, name)
-    anew = title is None
-    tables = _tables("file", ",".join(COLUMNS), "no", "yes") if title is None else _tables("append", title, "yes", "no")
-    why = "tables are begun anew" if anew else "tables go on: fix print writes the last line again that it wrote before"
-    found["start"] = f"\nread_restart {restart} noremap\n\n# {why}\n{tables}"
+    found["start"] = f"\nread_restart {restart} noremap\n"
+    if title is not None:
+        found["first line"] = f"\n# tables go on; title is the last line of series.csv so far\n" \
+                              f'variable  title string "{title}"\n{_tables("yes", "no")}'
     result = f"# Goes on from {restart}; all else is as in {name}. Written by lammps-foam resume.\n"
     for section in SECTIONS:
-        if section == "start":
-            result += f"\n{heading('restart')}\n{found[section]}"
-        elif section not in NEW_ONLY:
-            result += f"\n{heading(section)}\n{found[section]}"
+        if section != "relaxation":
+            label = "restart" if section == "start" else section
+            result += f"\n{heading(label)}\n{found[section].rstrip()}\n"
     return result

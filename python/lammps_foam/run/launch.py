@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import fcntl
 import os
+import shlex
 import shutil
 import signal
 import subprocess
@@ -25,8 +26,6 @@ SPARE = 20_000_000    # bytes that stay free beside the next files
 
 def find_lammps(lmp: str | None) -> list[str]:
     """The command that is LAMMPS: the one given, or the lammps-foam lmp of this environment."""
-    import shlex
-
     if lmp is not None:
         words = shlex.split(lmp)
         if not words or shutil.which(words[0]) is None:
@@ -35,13 +34,15 @@ def find_lammps(lmp: str | None) -> list[str]:
     return [sys.executable, "-c", "import sys; from lammps_foam.command import lmp; lmp(sys.argv[1:])"]
 
 
-def find_mpiexec(ranks: int) -> list[str]:
+def find_mpiexec(ranks: int, lammps: Sequence[str]) -> list[str]:
+    """The command that starts so many ranks: that beside LAMMPS or Python, or the first on PATH."""
     if ranks == 1:
         return []
-    beside = Path(sys.executable).with_name("mpiexec")
-    found = str(beside) if os.access(beside, os.X_OK) else shutil.which("mpiexec")
+    beside = [Path(word).with_name("mpiexec") for word in (*lammps, sys.executable) if os.path.isabs(word)]
+    # without links: an mpiexec of MPICH looks for its helpers where it is called
+    found = next((str(path.resolve()) for path in beside if os.access(path, os.X_OK)), None) or shutil.which("mpiexec")
     if found is None:
-        raise Unusable(f"--np {ranks}: there is no mpiexec beside {sys.executable} or on PATH; give it by --lmp "
+        raise Unusable(f"--np {ranks}: there is no mpiexec beside {lammps[0]} or on PATH; give it by --lmp "
                        f"'mpiexec -n {ranks} lmp'")
     return [found, "-n", str(ranks)]
 
@@ -83,6 +84,14 @@ class Lock:
 
     def __exit__(self, *_: object) -> None:
         self.file.close()
+
+
+def say(text: str, out: IO[str] | None = None) -> None:
+    """Print a line; if nobody reads any more (`| head`), the run goes on."""
+    try:
+        print(text, file=out or sys.stdout, flush=True)
+    except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), (out or sys.stdout).fileno())
 
 
 # ---- progress -------------------------------------------------------------------------------------------------------
@@ -128,7 +137,7 @@ class Display:
         if self.terminal:
             print(f"\r{text:<{len(self.shown)}}", end="", file=self.out, flush=True)
         elif seconds >= self.next:
-            print(text, file=self.out, flush=True)
+            say(text, self.out)
             self.next = seconds + min(600.0, max(5.0, 0.25 * seconds))
         else:
             return
@@ -138,7 +147,7 @@ class Display:
         if self.terminal and self.shown:
             print(file=self.out)
         self.shown = ""
-        print(text, file=self.out, flush=True)
+        say(text, self.out)
 
 
 # ---- one run --------------------------------------------------------------------------------------------------------
@@ -285,7 +294,7 @@ def _tail(path: Path, most: int = 20_000) -> str:
 
 
 def arguments(lammps: list[str], ranks: int, name: str, log: str, extra: Sequence[str]) -> list[str]:
-    return [*find_mpiexec(ranks), *lammps, "-in", name, "-log", log, "-screen", "none", *extra]
+    return [*find_mpiexec(ranks, lammps), *lammps, "-in", name, "-log", log, "-screen", "none", *extra]
 
 
 def new_log(directory: Path) -> str:

@@ -108,10 +108,9 @@ def _from(directory: Path, step: int, path: Path, told: list[str]) -> Plan:
     series_file = directory / "series.csv"
     title, cut_series = None, None
     if step > 0:
-        kept, names = _lines_before(directory, series_file, step, path.name)
-        if kept:
-            # LAMMPS writes the last of these lines again, as the title of its table
-            title, cut_series = kept[-1], "\n".join([",".join(names), *kept[:-1]]) + "\n"
+        kept, names = _lines_until(directory, series_file, step, path.name)
+        # fix print begins a table with a title, always: so LAMMPS writes the last of these lines again
+        title, cut_series = kept[-1], "\n".join([",".join(names), *kept[:-1]]) + "\n"
     cuts, remove = [], []
     for name in DUMPS:
         if (directory / name).exists():
@@ -124,19 +123,22 @@ def _from(directory: Path, step: int, path: Path, told: list[str]) -> Plan:
     return Plan("in.resume", resumed, cut_series, cuts, remove, told)
 
 
-def _lines_before(directory: Path, series_file: Path, step: int, restart: str) -> tuple[list[str], list[str]]:
-    """Whole lines of steps before the one of the restart file: LAMMPS itself writes that of this step."""
+def _lines_until(directory: Path, series_file: Path, step: int, restart: str) -> tuple[list[str], list[str]]:
+    """Whole lines up to the step of the restart file, and the names of the columns."""
     if not series_file.exists():
         raise Unusable(f"{series_file}: is not there, which should go on from {restart}. Nothing was changed")
     series = tables.read_series(series_file)
     lines = [*series.lines, *_lost_line(directory, series)]
     steps = [int(line.split(",", 1)[0]) for line in lines]
-    kept = [line for line, at in zip(lines, steps) if at < step]
+    kept = [line for line, at in zip(lines, steps) if at <= step]
+    if not kept:
+        raise Unusable(f"{series_file}: has no line up to step {step}, so it cannot go on from {restart}. Nothing was "
+                       "changed")
     if len(steps) > 1:
         distance = steps[1] - steps[0]
-        gaps = [before for before, at in zip(steps, steps[1:]) if at - before > distance and at < step]
-        last = max((at for at in steps if at < step), default=0)
-        if gaps or step - last > distance:
+        gaps = [before for before, at in zip(steps, steps[1:]) if at - before > distance and at <= step]
+        last = max(at for at in steps if at <= step)
+        if gaps or step - last >= distance:
             raise Unusable(f"{series_file}: lines are missing after step {gaps[0] if gaps else last} (a disk that was "
                            f"full?), so it cannot go on from {restart}. Nothing was changed")
     return kept, series.names

@@ -22,7 +22,7 @@ def run(arguments: list[str]) -> int:
     try:
         return _run(options, extra)
     except Unusable as error:
-        print(error, file=sys.stderr)
+        launch.say(str(error), sys.stderr)
         return 1
 
 
@@ -32,7 +32,7 @@ def resume(arguments: list[str]) -> int:
     try:
         return _resume(options, extra)
     except Unusable as error:
-        print(error, file=sys.stderr)
+        launch.say(str(error), sys.stderr)
         return 1
 
 
@@ -115,7 +115,7 @@ def _run(options: argparse.Namespace, extra: list[str] | None) -> int:
     _refuse_used(directory)
     lammps = launch.find_lammps(options.lmp)
     ranks = options.np or 1
-    launch.find_mpiexec(ranks)
+    launch.find_mpiexec(ranks, lammps)
     if not options.dry_run or options.gzip:
         has = launch.styles(lammps)
         if options.gzip and "custom/gz" not in has:
@@ -124,14 +124,15 @@ def _run(options: argparse.Namespace, extra: list[str] | None) -> int:
     text = lammps_input.new_run(foam, options.input.name, options.integrator, tolerance, options.gzip, options.save,
                                 options.save_steps)
     for note in foam.notes:
-        print(f"{options.input}: {note}")
+        launch.say(f"{options.input}: {note}")
     _write(directory, options.input, text, {
         "lmp": lammps, "np": ranks, "arguments": extra or [], "snapshots": foam.filename, "end": foam.end,
         "frequency": foam.frequency})
     if options.dry_run:
-        print(f"{directory / 'in.foam'} is written; lammps-foam resume {directory} runs it")
+        launch.say(f"{directory / 'in.foam'} is written; lammps-foam resume {directory} runs it")
         return 0
-    return _launch(directory, "in.foam", _record(directory), _summary(foam))
+    with launch.Lock(directory) as lock:
+        return _launch(lock, directory, "in.foam", _record(directory), _summary(foam))
 
 
 def _refuse_used(directory: Path) -> None:
@@ -183,7 +184,7 @@ def _resume(options: argparse.Namespace, extra: list[str] | None) -> int:
     record = _record(directory)
     if tables.size(directory / "complete") > 0:
         told = (directory / "complete").read_text().strip().lstrip("- ")
-        print(f"{directory}: {told}; nothing is left to do")
+        launch.say(f"{directory}: {told}; nothing is left to do")
         return 0
     if options.lmp is not None:
         record["lmp"] = launch.find_lammps(options.lmp)
@@ -191,29 +192,28 @@ def _resume(options: argparse.Namespace, extra: list[str] | None) -> int:
     record["arguments"] = record["arguments"] if extra is None else extra
     lammps, _, _ = launch.settings(record)
     launch.styles(lammps)
-    with launch.Lock(directory):
+    with launch.Lock(directory) as lock:
         plan = restart.plan(directory, lambda path: launch.readable(lammps, path))
         for line in plan.told:
-            print(f"{directory}: {line}")
+            launch.say(f"{directory}: {line}")
         plan.do(directory)
-    return _launch(directory, plan.input, record, f"resumed by {plan.input}")
+        return _launch(lock, directory, plan.input, record, f"resumed by {plan.input}")
 
 
 # ---- both -----------------------------------------------------------------------------------------------------------
 
-def _launch(directory: Path, name: str, record: dict[str, Any], what: str) -> int:
+def _launch(lock: launch.Lock, directory: Path, name: str, record: dict[str, Any], what: str) -> int:
     lammps, ranks, extra = launch.settings(record)
-    with launch.Lock(directory) as lock:
-        command = launch.arguments(lammps, ranks, name, launch.new_log(directory), extra)
-        print(f"{directory}: {what}")
-        ended = launch.Run(directory, command, record["end"], sys.stdout)(lock)
-        _derived(directory, record)
+    command = launch.arguments(lammps, ranks, name, launch.new_log(directory), extra)
+    launch.say(f"{directory}: {what}")
+    ended = launch.Run(directory, command, record["end"], sys.stdout)(lock)
+    _derived(directory, record)
     if ended.complete:
-        print(f"{directory}: {ended.message}")
+        launch.say(f"{directory}: {ended.message}")
         _tell_files(directory, record)
         return 0
-    print(f"{directory}: {ended.message}", file=sys.stderr)
-    print(f"{directory}: lammps-foam resume {directory} goes on", file=sys.stderr)
+    launch.say(f"{directory}: {ended.message}", sys.stderr)
+    launch.say(f"{directory}: lammps-foam resume {directory} goes on", sys.stderr)
     return 130 if ended.interrupted else 1
 
 
@@ -224,7 +224,7 @@ def _derived(directory: Path, record: dict[str, Any]) -> None:
             snapshots.results(directory)
         record["written"] = snapshots.snapshots(directory, record["snapshots"]) if record["frequency"] > 0 else 0
     except (Unusable, KeyError) as error:
-        print(error, file=sys.stderr)
+        launch.say(str(error), sys.stderr)
 
 
 def _tell_files(directory: Path, record: dict[str, Any]) -> None:
@@ -233,6 +233,6 @@ def _tell_files(directory: Path, record: dict[str, Any]) -> None:
             ("foam.lammpstrj", "snapshots"), ("foam.lammpstrj.gz", "snapshots"), ("last.lammpstrj", "the last state")]
     for name, text in rows:
         if (directory / name).exists():
-            print(f"  {directory / name}: {text}")
+            launch.say(f"  {directory / name}: {text}")
     if record.get("written"):
-        print(f"  {directory / record['snapshots']}.csv.0 to .{record['written'] - 1}: snapshots, a row for a bubble")
+        launch.say(f"  {directory / record['snapshots']}.csv.0 to .{record['written'] - 1}: snapshots as tables")
