@@ -51,7 +51,7 @@ def run(script, settings, ranks, backend):
     if ranks > 1:
         command = [program("FOAM_MPIEXEC"), "-n", str(ranks)] + command
     for name, value in settings.get("variables", {}).items():
-        command += ["-var", name, *str(value).split()]
+        command += ["-var", name, *map(str, value if isinstance(value, list) else [value])]
     start = time.perf_counter()
     with tempfile.TemporaryDirectory() as directory:
         with subprocess.Popen(command, cwd=directory, stdin=subprocess.DEVNULL, text=True,
