@@ -10,21 +10,15 @@ project = "Wet foams in LAMMPS"
 author = "the authors of lammps-foam"
 copyright = "the authors of lammps-foam; GNU General Public License, version 2"
 
-extensions = ["sphinx.ext.mathjax", "lammps_lexer"]
+extensions = ["sphinx.ext.mathjax", "sphinx_rtd_theme", "lammps_lexer"]
 exclude_patterns = ["_build", "_ext", "scripts"]
 highlight_language = "none"
 
-html_theme = "alabaster"     # comes with Sphinx
+html_theme = "sphinx_rtd_theme"    # as the manual of LAMMPS
 html_title = project
-html_theme_options = {
-    "description": "Bubbles that rearrange and exchange gas",
-    "fixed_sidebar": True,
-    # tables of text are up to 135 characters wide: they fit into a window of 1300 pixels
-    "page_width": "1270px",
-    "sidebar_width": "215px",
-    "body_max_width": "none",
-}
+html_theme_options = {"navigation_depth": 2}
 html_static_path = ["_static"]
+html_css_files = ["custom.css"]
 html_show_sourcelink = False
 html_copy_source = False
 
