@@ -2,10 +2,9 @@
 
 import pytest
 
-for module in ("numpy", "scipy", "matplotlib"):
-    pytest.importorskip(module)
-
-import numpy as np
+np = pytest.importorskip("numpy")
+pytest.importorskip("scipy")
+pytest.importorskip("matplotlib")
 
 
 @pytest.fixture

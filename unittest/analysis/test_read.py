@@ -208,7 +208,8 @@ def test_minimum_image_is_the_shortest(tilt, periodic, dimension, rng):
     """Against all images within 4 edges, and 16 along x, where rows are displaced by up to 12/10 + 2 17/10 edges."""
     b = box(tilt=tilt, periodic=periodic, dimension=dimension)
     d = rng.uniform(-10, 10, (200, 3)) * [1, 1, dimension == 3]
-    ways = [range(-16 if axis == 0 else -4, 17 if axis == 0 else 5) if periodic[axis] and axis < dimension else (0,) for axis in range(3)]
+    most = [16, 4, 4]
+    ways = [range(-most[n], most[n] + 1) if periodic[n] and n < dimension else (0,) for n in range(3)]
     shortest = np.min([np.linalg.norm(d + np.array(n) @ b.edges, axis=1) for n in itertools.product(*ways)], axis=0)
     image = b.minimum_image(d)
     np.testing.assert_allclose(np.linalg.norm(image, axis=1), shortest, atol=1e-12)

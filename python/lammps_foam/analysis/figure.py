@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import os
 from pathlib import Path
 from typing import Any
@@ -14,6 +15,8 @@ from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import LogFormatterSciNotation
+
+logging.getLogger("fontTools").setLevel(logging.ERROR)    # it warns of dates of fonts
 
 WIDTH, HEIGHT = 3.4, 2.6    # inches: one column
 STYLE: Any = {

@@ -106,7 +106,7 @@ def read_series(path: Path_) -> Series:
     head = next((line for line in lines if line.strip()), b"")
     if head.startswith(b"#"):
         names, table = _ave_time(lines, file)
-    elif b"," in head or len(head.split()) == 1:
+    elif not head.startswith(b"LAMMPS") and (b"," in head or len(head.split()) == 1):
         names, table = _comma_separated(lines, file)
     else:
         names, table = _thermo(lines, file)
@@ -241,21 +241,23 @@ class Box:
         return x
 
     def minimum_image(self, d: Array) -> Array:
-        """The shortest of all periodic images of vectors (n, 3), for any tilt."""
-        d = self._shortened(np.array(d, dtype=float))
+        """The shortest of all periodic images of vectors (n, 3), for any tilt along periodic directions."""
+        d = self._shortened(np.array(d, dtype=float), below=3)
         if not np.any(self.tilt):
             return d
-        axes = [axis for axis in self._axes() if axis > 0]
-        best = d.copy()
-        for shifts in np.ndindex(*(3,) * len(axes)):    # the nearest rows along b and c
-            image = d + sum((shift - 1) * self.edges[axis] for shift, axis in zip(shifts, axes))
-            image = self._shortened(image, below=min(axes, default=0))
+        images = [d]
+        for axis in self._axes():
+            if axis > 0:    # the nearest rows along c, then b: with a tilt they may come closer along the axes below
+                images = [self._shortened(image + shift * self.edges[axis], below=axis)
+                          for image in images for shift in (-1, 0, 1)]
+        best = d
+        for image in images:
             shorter = np.sum(image**2, axis=-1) < np.sum(best**2, axis=-1)
-            best[shorter] = image[shorter]
+            best = np.where(shorter[..., None], image, best)
         return best
 
-    def _shortened(self, d: Array, below: int = 3) -> Array:
-        """d less whole edges, the last first, so that no component along an axis is longer than half its edge."""
+    def _shortened(self, d: Array, below: int) -> Array:
+        """d less whole edges, the last first, until no component along an axis is longer than half its edge."""
         for axis in self._axes():
             if axis < below:
                 d = d - np.round(d[..., axis] / self.lengths[axis])[..., None] * self.edges[axis]
