@@ -61,8 +61,8 @@ def checked(frame: Frame) -> tuple[Array, Array]:
 def into_brick(x: Array, box: Box) -> Array:
     """Positions (n, 3) moved through periodic faces into the brick lo to lo + (lx, ly, lz).
 
-    The edges of a box are a = (lx, 0, 0), b = (xy, ly, 0), c = (xz, yz, lz): the brick has the same volume and, repeated
-    along a, b and c, fills space as the tilted box does.
+    The edges of a box are a = (lx, 0, 0), b = (xy, ly, 0), c = (xz, yz, lz): the brick has the same volume and,
+    repeated along a, b and c, fills space as the tilted box does.
     """
     x = np.array(x, dtype=float)
     for axis in reversed(range(box.dimension)):
@@ -146,7 +146,7 @@ def close_pairs(x: Array, radius: Array, box: Box, reach: float = 1.0) -> Pairs:
 def _size_classes(radius: Array) -> NDArray[np.int64]:
     """(n,): classes of radii, each up to CLASS_RATIO wide; what is smaller than a hundredth of the largest is one."""
     least = max(radius.min(), radius.max() / 100)
-    return np.floor(np.log(np.maximum(radius, least) / least) / np.log(CLASS_RATIO)).astype(np.int64)
+    return np.asarray(np.log(np.maximum(radius, least) / least) / np.log(CLASS_RATIO)).astype(np.int64)
 
 
 def _forward(shift: NDArray[np.int64]) -> NDArray[np.bool_]:
