@@ -128,7 +128,7 @@ def test_missing_key(tmp_path, place):
     (NESTED, "constants.Kappa", "did you mean kappa?"),
     (NESTED, "box.wall.w", "known here: drag, x, y, z"),
     (NESTED, "phiTarget", "it belongs to the flat form"),
-    (NESTED, "constants.K.valueExpl", "known here: value"),
+    (NESTED, "constants.K.valueExpl", "did you mean value?"),
     (FLAT, "phiTargt", "did you mean phiTarget?"),
     (FLAT, "constants", "it belongs to the nested form"),
     (FLAT, "AvgRad", "did you mean avgRad?"),
@@ -158,6 +158,8 @@ def test_flow_box(tmp_path):
     thesis_input.read(path)
     (_, _, message), = refused(path, flow=True)
     assert message == "flowVel: is missing; a flow is imposed"
+    (_, _, message), = refused(written(path, FLAT), walls="z")
+    assert "a wall across z needs three dimensions" in message
 
 
 def test_all_errors_at_once(tmp_path):

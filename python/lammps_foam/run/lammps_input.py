@@ -108,22 +108,7 @@ dimension {foam.dimension}
 boundary  {boundary}{'':14s} # f: a wall, p: periodic
 atom_style sphere 1               # radii change, and are communicated
 create_foam ${{N}} ${{seed}} start grid box {box} sizes normal ${{mean}} ${{std}} rmin ${{rmin}}
-
-{_shape(foam)}"""
-
-
-def _shape(foam: Foam) -> str:
-    """The box with exactly these proportions, whereas that of the grid has whole rows; of the same size."""
-    x, y, z = foam.sides
-    if foam.dimension == 2:
-        sides = {"x": f"sqrt(lx*ly*{number(x)}/{number(y)})", "y": f"sqrt(lx*ly*{number(y)}/{number(x)})"}
-    else:
-        sides = {"x": f"(lx*ly*lz*{number(x)}^2/({number(y)}*{number(z)}))^(1/3)",
-                 "y": f"(lx*ly*lz*{number(y)}^2/({number(x)}*{number(z)}))^(1/3)",
-                 "z": f"(lx*ly*lz*{number(z)}^2/({number(x)}*{number(y)}))^(1/3)"}
-    change = " ".join(f"{axis} final 0 $({side}:%.17g)" for axis, side in sides.items())
-    return f"# the grid has whole rows; now the box has the proportions of the input\n" \
-           f"change_box all {change} remap units box\n"
+"""
 
 
 def _mechanics(foam: Foam) -> str:

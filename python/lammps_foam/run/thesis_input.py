@@ -133,7 +133,7 @@ def read(path: Path, dimension: int | None = None, walls: str | None = None,
     given = _values(root, form)
     given |= _options(path, form, given, {"dimension": dimension, "walls": walls, "flow": flow})
     wrong = {trouble.path for trouble in troubles}
-    troubles += _contradictions(root, form, given, wrong)
+    troubles += _contradictions(root, form, {"dimension": 2, **given}, wrong)
     if troubles:
         raise Unusable(_report(path, text, troubles))
     return _foam(form, given, root.value)

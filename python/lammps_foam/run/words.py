@@ -213,7 +213,8 @@ def _launch(lock: launch.Lock, directory: Path, name: str, record: dict[str, Any
         _tell_files(directory, record)
         return 0
     launch.say(f"{directory}: {ended.message}", sys.stderr)
-    launch.say(f"{directory}: lammps-foam resume {directory} goes on", sys.stderr)
+    does = "goes on" if restart.files(directory) else "begins again"
+    launch.say(f"{directory}: lammps-foam resume {directory} {does}", sys.stderr)
     return 130 if ended.interrupted else 1
 
 
