@@ -69,7 +69,7 @@ def rebuilt(ln_R: Array, blocks: int = BLOCKS, samples: int = SAMPLES, seed: int
     starts = np.random.default_rng(seed).integers(len(steps), size=(samples, blocks))
     drawn = (starts[:, :, None] + np.arange(length)).reshape(samples, -1)[:, :len(steps)] % len(steps)
     new = trend + deviation[drawn]
-    return np.concatenate([np.zeros((samples, 1)), np.cumsum(new, axis=1)], axis=1) + ln_R[0]
+    return np.asarray(ln_R[0] + np.concatenate([np.zeros((samples, 1)), np.cumsum(new, axis=1)], axis=1))
 
 
 def estimate(ln_tau: Array, ln_R: Array, estimator: Estimator = slopes, samples: int = SAMPLES) -> tuple[Array, Array]:
