@@ -27,14 +27,14 @@ def foam(tmp_path, *words, **variables):
 def test_help(tmp_path):
     done = foam(tmp_path, "help")
     assert done.returncode == 0
-    for word in ("demo test lmp bench tradeoff executable doc help --device --arch --precision "
+    for word in ("demo test lmp env bench tradeoff executable doc help --device --arch --precision "
                  "FOAM_CACHE FOAM_LAMMPS FOAM_DEVICE FOAM_TARBALLS").split():
         assert word in done.stdout
     assert foam(tmp_path).stdout == done.stdout
 
 
 @pytest.mark.parametrize("words, message", [
-    (["tset"], "'tset' is no word of mine; these are: demo, test, lmp, bench, tradeoff, executable, "
+    (["tset"], "'tset' is no word of mine; these are: demo, test, lmp, env, bench, tradeoff, executable, "
      "doc, help"),
     (["lmp", "--np", "two"], "--np needs a positive number, not 'two'"),
     (["lmp", "--np"], "--np needs a positive number, not ''"),
