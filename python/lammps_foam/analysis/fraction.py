@@ -182,8 +182,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--random", type=int, default=5, metavar="TRIALS",
                         help="trials with bubbles at random places, 0 for none (default: 5)")
     parser.add_argument("--seed", type=int, default=1, help="of the random places (default: 1)")
-    parser.epilog = ("also writes BASE-cells.csv (all cells of all frames), and BASE-map.pdf and .png: the first run's\n"
-                     "first, middle and last frame (in 3D the middle layer of cells)\n"
+    parser.epilog = ("also writes BASE-cells.csv (all cells of all frames), and BASE-map.pdf and .png: of the first\n"
+                     "run the first, middle and last frame (in 3D the middle layer of cells)\n"
                      "example: the grid of the thesis, tau from 60 on\n"
                      "  lammps-foam fraction DIR --cells 10 --tau 60 1000 --out fraction")
 
@@ -243,8 +243,8 @@ def _draw(columns: dict[str, Array], out: str) -> None:
     right.axhline(1, color="0.7", lw=0.8, zorder=0)
     highest = np.nanmax([1.0, *(columns["clustering"] + columns["clustering_error"])])
     right.set(ylabel="clustering", ylim=(0, 1.2 * highest), xlim=left.get_xlim())
-    right.annotate("dense beside dense", (0.03, 1.02), xycoords=("axes fraction", "data"), va="bottom", fontsize=7, color="0.4")
-    right.annotate("uniform", (0.03, 0.98), xycoords=("axes fraction", "data"), va="top", fontsize=7, color="0.4")
+    for text, y, va in (("dense beside dense", 1.02, "bottom"), ("uniform", 0.98, "top")):
+        right.annotate(text, (0.03, y), xycoords=("axes fraction", "data"), va=va, fontsize=7, color="0.4")
     figure.save(fig, out)
 
 
