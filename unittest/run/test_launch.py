@@ -129,8 +129,9 @@ def test_no_gzip(start, tmp_path):
     assert status == 1 and "no dump custom/gz" in err and not (tmp_path / "out").exists()
 
 
-@pytest.mark.parametrize("options", [["--tol", "0"], ["--tol", "nan"], ["--np", "0"], ["--walls", "xw"], ["--np", "1.5"],
-                                     ["--save", "-1"], ["--dimension", "4"], ["--integrator", "euler"]])
+@pytest.mark.parametrize("options", [["--tol", "0"], ["--tol", "nan"], ["--np", "0"], ["--walls", "xw"],
+                                     ["--np", "1.5"], ["--save", "-1"], ["--dimension", "4"],
+                                     ["--integrator", "euler"]])
 def test_wrong_options(start, options, capsys):
     with pytest.raises(SystemExit) as error:
         start("", *options)

@@ -93,6 +93,35 @@ def test_displacements_add_up(whole):
     assert second[:, 11].max() > 0.01
 
 
+def springs(x, R, side):
+    """Energy of each bubble's half of its springs, of all pairs, with the nearest image; sigma0 = <R_in> = 1."""
+    d = x[:, None] - x[None]
+    d -= side * np.round(d / side)
+    both = R[:, None] + R[None]
+    overlap = np.clip(both - np.linalg.norm(d, axis=2), 0.0, None)
+    np.fill_diagonal(overlap, 0.0)
+    return (0.25 * overlap**2 / both).sum(1)
+
+
+def test_all_columns_are_of_their_frame(tmp_path):
+    """Also where frames follow each other closely: distance and energy by the places of the same frame."""
+    directory = tmp_path / "foam"
+    lammps_foam("run", *arguments(directory, {"snapShot.frequency": 100, "bubbles.numEnd": 90}))
+    start = None
+    count = 0
+    for frame in tables.frames(directory / "foam.lammpstrj"):
+        data = dict(zip(frame.names, np.array([row.split() for row in frame.rows], float).T))
+        side = np.array([hi - lo for lo, hi, *_ in frame.bounds[:2]])
+        x = np.column_stack([data["x"], data["y"]])
+        unwrapped = x + side * np.column_stack([data["ix"], data["iy"]])
+        start = dict(zip(data["id"], unwrapped)) if start is None else start
+        moved = np.linalg.norm(unwrapped - np.array([start[i] for i in data["id"]]), axis=1)
+        assert np.allclose(data["distance"], moved, rtol=1e-6, atol=1e-7)    # differences of 9 digits of some 10
+        assert np.allclose(data["energy"], springs(x, data["radius"], side), rtol=1e-6, atol=1e-8)
+        count += 1
+    assert count > 50
+
+
 def test_few_restart_files_stay(whole):
     assert len(restart.files(whole)) == 2
 

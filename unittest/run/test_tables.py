@@ -1,4 +1,4 @@
-"""Tables and dumps are read as far as they are whole, and cut back to the step of a restart file, which is whole, too."""
+"""Tables and dumps are read as far as they are whole, and cut back to the step of a restart file that is whole."""
 
 import gzip
 import json
@@ -59,11 +59,11 @@ def test_series_with_a_cut_line(tmp_path):
         assert read.lines == lines[1:-1]
 
 
-@pytest.mark.parametrize("damaged, number", [("50,abc", 3), (line(50) + ",7", 3), (line(50)[:-2], 3), (line(0), 3), ("", 3)])
-def test_damaged_series(tmp_path, damaged, number):
+@pytest.mark.parametrize("damaged", ["50,abc", line(50) + ",7", line(50)[:-2], line(0), ""])
+def test_damaged_series(tmp_path, damaged):
     path = tmp_path / "series.csv"
     path.write_text("\n".join([",".join(NAMES), line(0), damaged, line(100)]) + "\n")
-    with pytest.raises(Unusable, match=f"series.csv:{number}: .*damaged"):
+    with pytest.raises(Unusable, match="series.csv:3: .*damaged"):
         tables.read_series(path)
 
 
@@ -151,12 +151,12 @@ def test_resume_cuts_tables(run):
     plan = restart.plan(run)
     assert content(run) == before    # a plan changes nothing
     plan.do(run)
-    # the last line up to step 240 is the title in in.resume, which LAMMPS writes
+    # the last line before step 240 is the title in in.resume, which LAMMPS writes
     assert steps(run) == [0, 50, 100, 150]
     text = (run / "in.resume").read_text()
     assert f'variable  title string "{line(200)}"' in text
     assert "read_restart restart.240 noremap" in text
-    for absent in ("create_foam", "relax_foam", "file series.csv"):
+    for absent in ("create_foam", "relax_foam", "string file"):
         assert absent not in text
     assert [one.step for one in tables.frames(run / "foam.lammpstrj")] == [0, 100, 200]
     # killed before LAMMPS wrote anything, and resumed again: the line is not lost
@@ -175,6 +175,14 @@ def test_resume_takes_the_restart_file_before(run):
     assert [one.step for one in tables.frames(run / "foam.lammpstrj")] == [0, 100]
 
 
+def test_line_at_the_step_of_the_restart_file(run):
+    """LAMMPS writes it again, when the run begins: so it is not kept."""
+    restart_file(run, 250)
+    restart.plan(run).do(run)
+    assert steps(run) == [0, 50, 100, 150]
+    assert f'variable  title string "{line(200)}"' in (run / "in.resume").read_text()
+
+
 def test_resume_takes_one_that_lammps_can_read(run):
     plan = restart.plan(run, lambda path: "is refused" if path.name == "restart.240" else None)
     assert plan.told == [f"{run / 'restart.240'} is refused; taking the one before", "goes on from step 120"]
@@ -186,7 +194,7 @@ def test_resume_from_the_relaxed_foam(run):
         (run / f"restart.{step}").unlink()
     restart.plan(run).do(run)
     text = (run / "in.resume").read_text()
-    assert "read_restart restart.0 noremap" in text and "file series.csv" in text and "relax_foam" not in text
+    assert "read_restart restart.0 noremap" in text and "string file" in text and "relax_foam" not in text
     assert not (run / "foam.lammpstrj").exists()
 
 
@@ -230,7 +238,7 @@ def test_lines_that_are_missing(run):
     series(run / "series.csv", [0, 50, 100])
     refused(run, "lines are missing after step 100")
     series(run / "series.csv", [])
-    refused(run, "has no line up to step 240")
+    refused(run, "has no line before step 240")
     (run / "series.csv").unlink()
     refused(run, "series.csv: is not there")
 
@@ -246,7 +254,7 @@ def test_writing_whole_or_not_at_all(tmp_path):
 # ---- the thesis' files ----------------------------------------------------------------------------------------------
 
 def test_snapshots(tmp_path):
-    """Displacements are those of unwrapped places; bubbles vanish; the last state is a snapshot, if it is a later one."""
+    """Displacements are those of unwrapped places; bubbles vanish; the last state is a snapshot, if it is later."""
     (tmp_path / "foam.lammpstrj").write_text(
         frame(0, [bubble(1, 1.0, 2.0), bubble(2, 9.5, 5.0), bubble(4, 5.0, 5.0)], lo=-1.0)
         + frame(10, [bubble(1, 4.0, 6.0), bubble(2, -0.25, 5.0, ix=1), bubble(4, -1.25, 5.0)], lo=-1.0))

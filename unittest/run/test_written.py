@@ -10,7 +10,8 @@ from thesis import FLAT, NESTED, written
 
 
 def text_of(tmp_path, changes=None, data=NESTED, **options):
-    return lammps_input.new_run(thesis_input.read(written(tmp_path / "foam.json", data, changes)), "foam.json", **options)
+    foam = thesis_input.read(written(tmp_path / "foam.json", data, changes))
+    return lammps_input.new_run(foam, "foam.json", **options)
 
 
 def settings(text):

@@ -17,7 +17,7 @@ COLUMNS = {
     "path": "$(v_path:%.10g)", "msd": "$(v_msd:%.10g)", "vvar": "$(v_vvar:%.10g)", "edurian": "$(c_edurian:%.12g)",
     "h": "$(f_step[2]:%.6g)",
 }
-SECTIONS = ("settings", "start", "mechanics", "relaxation", "coarsening", "first line", "run", "end")
+SECTIONS = ("settings", "start", "mechanics", "relaxation", "coarsening", "tables", "run", "end")
 
 
 def heading(section: str) -> str:
@@ -44,7 +44,7 @@ def new_run(foam: Foam, source: str, integrator: str = "abm", tolerance: float |
         "mechanics": _mechanics(foam),
         "relaxation": _relaxation(foam, integrator),
         "coarsening": _coarsening(foam, integrator),
-        "first line": _first_line(),
+        "tables": _tables("file", ",".join(COLUMNS), "no", "yes"),
         "run": _run(foam, gzip, save_steps is None),
         "end": _end(foam),
     }
@@ -210,6 +210,9 @@ dump      foam all {style} 1 {name} &
           {DUMPED}
 dump_modify foam every/time v_shot first ${{first}} append ${{append}} &
           {DUMP_FORMAT}
+# For a dump by time LAMMPS takes the values of computes that it has, of whatever step: this drops them in each step.
+variable  never equal 0
+fix       fresh all halt 1 v_never > 0
 """
 
 
@@ -218,18 +221,13 @@ DUMP_FORMAT = ("sort id time yes format float %.9g colname f_step path colname c
                "          colname c_b[1] energy colname c_b[3] rdot colname c_b[4] contacts")
 
 
-def _first_line() -> str:
-    return f"""# of series.csv; lengths are in units of <R_in>
-run       0 post no
-print     "{','.join(COLUMNS)}" file series.csv screen no
-variable  title string &
-{_line()}
-{_tables("no", "yes")}"""
-
-
-def _tables(append: str, first: str) -> str:
-    """Whether a dump is begun or goes on, and whether it begins with the present state."""
-    return f"variable  append string {append}\nvariable  first string {first}\n"
+def _tables(write: str, title: str, append: str, first: str) -> str:
+    """How files begin: fix print writes a title before its first line, always; a dump may begin with the present."""
+    return f"""variable  write string {write}
+variable  title string "{title}"
+variable  append string {append}
+variable  first string {first}
+"""
 
 
 BY_TIME = """# Restart files by wall time: the next after as many steps as take ${save} seconds, by the steps so far.
@@ -245,11 +243,10 @@ BY_STEPS = "restart   ${save} restart.*\n"
 
 
 def _run(foam: Foam, gzip: bool, by_time: bool) -> str:
-    return f"""# time series: title is the line before the first of this run
-variable  line equal (floor(step/v_every)+1)*v_every
-fix       series all print v_line &
+    return f"""# time series; lengths are in units of <R_in>
+fix       series all print ${{every}} &
 "{_line()}" &
-          append series.csv screen no title ${{title}}
+          ${{write}} series.csv screen no title ${{title}}
 {_snapshots(gzip) if foam.frequency > 0 else ""}
 {BY_TIME if by_time else BY_STEPS}
 # A file named stop ends the run, after a step that is a multiple of ${{every}}, so that it can be resumed
@@ -292,13 +289,14 @@ def sections(text: str, name: str) -> dict[str, str]:
 def going_on(text: str, name: str, restart: str, title: str | None) -> str:
     """The text of in.resume: in.foam, but from a restart file.
 
-    title: the last line of series.csv up to the restart file; None if that is of the relaxed foam, without tables.
+    title: the last line of series.csv before the step of the restart file; None if that is of the relaxed foam, and
+    tables are begun.
     """
     found = sections(text, name)
     found["start"] = f"\nread_restart {restart} noremap\n"
     if title is not None:
-        found["first line"] = f"\n# tables go on; title is the last line of series.csv so far\n" \
-                              f'variable  title string "{title}"\n{_tables("yes", "no")}'
+        found["tables"] = f"\n# they go on; title is the last line of series.csv so far\n" \
+                          f'{_tables("append", title, "yes", "no")}'
     result = f"# Goes on from {restart}; all else is as in {name}. Written by lammps-foam resume.\n"
     for section in SECTIONS:
         if section != "relaxation":

@@ -158,6 +158,7 @@ class Ended:
     complete: bool
     interrupted: bool
     message: str
+    full: bool = False    # the disk
 
 
 class Run:
@@ -266,7 +267,7 @@ class Run:
                   if line.startswith("ERROR") or "Error:" in line]
         if self.asked or code == 0:
             if self.full:
-                return Ended(False, True, "stopped, since the disk is nearly full: make room")
+                return Ended(False, True, "stopped, since the disk is nearly full: make room", True)
             return Ended(False, True, "interrupted")
         if code < 0:
             why = f"LAMMPS was ended by signal {-code} ({signal.strsignal(-code)})"

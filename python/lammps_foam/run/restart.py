@@ -108,7 +108,7 @@ def _from(directory: Path, step: int, path: Path, told: list[str]) -> Plan:
     series_file = directory / "series.csv"
     title, cut_series = None, None
     if step > 0:
-        kept, names = _lines_until(directory, series_file, step, path.name)
+        kept, names = _lines_before(directory, series_file, step, path.name)
         # fix print begins a table with a title, always: so LAMMPS writes the last of these lines again
         title, cut_series = kept[-1], "\n".join([",".join(names), *kept[:-1]]) + "\n"
     cuts, remove = [], []
@@ -123,22 +123,22 @@ def _from(directory: Path, step: int, path: Path, told: list[str]) -> Plan:
     return Plan("in.resume", resumed, cut_series, cuts, remove, told)
 
 
-def _lines_until(directory: Path, series_file: Path, step: int, restart: str) -> tuple[list[str], list[str]]:
-    """Whole lines up to the step of the restart file, and the names of the columns."""
+def _lines_before(directory: Path, series_file: Path, step: int, restart: str) -> tuple[list[str], list[str]]:
+    """Whole lines before the step of the restart file, and the names of columns. LAMMPS writes that of the step."""
     if not series_file.exists():
         raise Unusable(f"{series_file}: is not there, which should go on from {restart}. Nothing was changed")
     series = tables.read_series(series_file)
     lines = [*series.lines, *_lost_line(directory, series)]
     steps = [int(line.split(",", 1)[0]) for line in lines]
-    kept = [line for line, at in zip(lines, steps) if at <= step]
+    kept = [line for line, at in zip(lines, steps) if at < step]
     if not kept:
-        raise Unusable(f"{series_file}: has no line up to step {step}, so it cannot go on from {restart}. Nothing was "
+        raise Unusable(f"{series_file}: has no line before step {step}, so it cannot go on from {restart}. Nothing was "
                        "changed")
     if len(steps) > 1:
         distance = steps[1] - steps[0]
-        gaps = [before for before, at in zip(steps, steps[1:]) if at - before > distance and at <= step]
-        last = max(at for at in steps if at <= step)
-        if gaps or step - last >= distance:
+        gaps = [before for before, at in zip(steps, steps[1:]) if at - before > distance and at < step]
+        last = max(at for at in steps if at < step)
+        if gaps or step - last > distance:
             raise Unusable(f"{series_file}: lines are missing after step {gaps[0] if gaps else last} (a disk that was "
                            f"full?), so it cannot go on from {restart}. Nothing was changed")
     return kept, series.names

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -14,6 +15,20 @@ SNAPSHOT = ["x", "y", "z", "r", "vx", "vy", "vz", "vtot", "path", "distance", "e
 RESULTS = ["tau", "R", "Rmax", "N", "path", "msd", "energy", "change", "edurian", "change_edurian"]
 
 
+@dataclass
+class Places:
+    """Unwrapped, (n, 3), of bubbles by their IDs, in rising order."""
+    ids: np.ndarray
+    x: np.ndarray
+
+    def moved(self, before: Places) -> np.ndarray:
+        """Distances from those before, (n,); 0 for bubbles that were not there."""
+        distance = np.zeros(len(self.ids))
+        _, here, there = np.intersect1d(self.ids, before.ids, assume_unique=True, return_indices=True)
+        distance[here] = np.linalg.norm(self.x[here] - before.x[there], axis=1)
+        return distance
+
+
 def snapshots(directory: Path, name: str) -> int:
     """Write NAME.csv.0, NAME.csv.1, ..., one for each snapshot of the run and the last state; returns how many.
 
@@ -22,7 +37,7 @@ def snapshots(directory: Path, name: str) -> int:
     energy is half of the energies of the springs to the bubbles in contact, index counts from 0.
     """
     count = 0
-    places: dict[int, np.ndarray] = {}
+    places = Places(np.empty(0, int), np.empty((0, 3)))
     for frame in _all_frames(directory):
         lines, places = _snapshot(frame, places)
         replace(directory / f"{name}.csv.{count}", "\n".join([",".join(SNAPSHOT), *lines]) + "\n")
@@ -41,26 +56,26 @@ def _all_frames(directory: Path) -> Iterator[Frame]:
                     last = frame.step
 
 
-def _snapshot(frame: Frame, before: dict[int, np.ndarray]) -> tuple[list[str], dict[int, np.ndarray]]:
-    """Lines of the table, and the unwrapped places by ID for the next one."""
-    data = np.array([row.split() for row in frame.rows], dtype=float).reshape(len(frame.rows), len(frame.names))
+ROW = ",".join(["%.9g"] * (len(SNAPSHOT) - 1) + ["%d"])
+
+
+def _snapshot(frame: Frame, before: Places) -> tuple[list[str], Places]:
+    """Lines of the table, and the places for the next one."""
+    data = np.fromstring(b" ".join(frame.rows).decode(), sep=" ").reshape(len(frame.rows), len(frame.names))
     column = dict(zip(frame.names, data.T))
     lo, hi = np.array([bounds[:2] for bounds in frame.bounds]).T
     x = np.column_stack([column[axis] for axis in "xyz"])
     images = np.column_stack([column[f"i{axis}"] for axis in "xyz"])
-    unwrapped = x + images * (hi - lo)
+    places = Places(column["id"].astype(int), x + images * (hi - lo))
     inside = x - lo
     # LAMMPS wraps when it builds lists; between, a bubble may be a little outside of a periodic box
     inside -= np.floor(inside / (hi - lo)) * (hi - lo)
     if np.all(x[:, 2] == 0.0):    # 2D
         inside[:, 2] = 0.0
     v = np.column_stack([column[f"v{axis}"] for axis in "xyz"])
-    index = column["id"].astype(int) - 1
-    moved = [np.linalg.norm(here - before.get(i, here)) for i, here in zip(index.tolist(), unwrapped)]
     table = np.column_stack([inside, column["radius"], v, np.linalg.norm(v, axis=1), column["path"],
-                             column["distance"], column["energy"], moved])
-    lines = [",".join(f"{value:.9g}" for value in row) + f",{i}" for row, i in zip(table, index)]
-    return lines, dict(zip(index.tolist(), unwrapped))
+                             column["distance"], column["energy"], places.moved(before), places.ids - 1])
+    return [ROW % tuple(row) for row in table.tolist()], places
 
 
 def results(directory: Path) -> int:

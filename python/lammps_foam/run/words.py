@@ -6,6 +6,7 @@ import argparse
 import json
 import shutil
 import sys
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -19,21 +20,28 @@ TRACES = ("in.foam", "run.json", "series.csv", "complete", "foam.lammpstrj", "fo
 def run(arguments: list[str]) -> int:
     given, extra = _split(arguments)
     options = _run_parser().parse_args(given)
-    try:
-        return _run(options, extra)
-    except Unusable as error:
-        launch.say(str(error), sys.stderr)
-        return 1
+    return _status(lambda: _run(options, extra))
 
 
 def resume(arguments: list[str]) -> int:
     given, extra = _split(arguments)
     options = _resume_parser().parse_args(given)
+    return _status(lambda: _resume(options, extra))
+
+
+def _status(work: Callable[[], int]) -> int:
+    """The exit status of a word; what is wrong is told."""
     try:
-        return _resume(options, extra)
+        return work()
     except Unusable as error:
         launch.say(str(error), sys.stderr)
         return 1
+    except OSError as error:
+        launch.say(f"{error.filename or 'lammps-foam'}: {error.strerror or error}", sys.stderr)
+        return 1
+    except KeyboardInterrupt:    # before or after LAMMPS has run
+        launch.say("interrupted", sys.stderr)
+        return 130
 
 
 def _split(arguments: list[str]) -> tuple[list[str], list[str] | None]:
@@ -207,7 +215,8 @@ def _launch(lock: launch.Lock, directory: Path, name: str, record: dict[str, Any
     command = launch.arguments(lammps, ranks, name, launch.new_log(directory), extra)
     launch.say(f"{directory}: {what}")
     ended = launch.Run(directory, command, record["end"], sys.stdout)(lock)
-    _derived(directory, record)
+    if not ended.full:
+        _derived(directory, record)
     if ended.complete:
         launch.say(f"{directory}: {ended.message}")
         _tell_files(directory, record)
