@@ -26,8 +26,8 @@ def planted(rng, where=WHERE, spikes=WHERE, noise=0.02):
 
 
 def test_planted_drops(rng):
-    """Each is found once, where it is, with its width. A Gaussian has 76 % of its area in its full width at half height,
-    and there is the steady fall, 0.4 times the width. Limits: noise and steps of ln(tau), which are 0.001."""
+    """Each is found once, where it is, with its width. A Gaussian has 76 % of its area in its width at half height;
+    there is the steady fall, 0.4 times the width. Limits: noise and steps of ln(tau), which are 0.001."""
     found = avalanches.analyse(planted(rng), 1, 20, 6, 1)
     np.testing.assert_allclose(found.drops.peak, WHERE, atol=0.2 * WIDTH)
     full_width = 2 * np.sqrt(2 * np.log(2)) * WIDTH
