@@ -154,7 +154,7 @@ def test_resume_cuts_tables(run):
     # the last line before step 240 is the title in in.resume, which LAMMPS writes
     assert steps(run) == [0, 50, 100, 150]
     text = (run / "in.resume").read_text()
-    assert f'variable  title string "{line(200)}"' in text
+    assert f'variable      title string "{line(200)}"' in text
     assert "read_restart restart.240 noremap" in text
     for absent in ("create_foam", "relax_foam", "string file"):
         assert absent not in text
@@ -162,7 +162,7 @@ def test_resume_cuts_tables(run):
     # killed before LAMMPS wrote anything, and resumed again: the line is not lost
     restart.plan(run).do(run)
     assert steps(run) == [0, 50, 100, 150]
-    assert f'variable  title string "{line(200)}"' in (run / "in.resume").read_text()
+    assert f'variable      title string "{line(200)}"' in (run / "in.resume").read_text()
 
 
 def test_resume_takes_the_restart_file_before(run):
@@ -180,7 +180,7 @@ def test_line_at_the_step_of_the_restart_file(run):
     restart_file(run, 250)
     restart.plan(run).do(run)
     assert steps(run) == [0, 50, 100, 150]
-    assert f'variable  title string "{line(200)}"' in (run / "in.resume").read_text()
+    assert f'variable      title string "{line(200)}"' in (run / "in.resume").read_text()
 
 
 def test_resume_takes_one_that_lammps_can_read(run):
@@ -200,9 +200,9 @@ def test_resume_from_the_relaxed_foam(run):
 
 def test_resume_keeps_what_the_user_changed(run):
     text = (run / "in.foam").read_text()
-    (run / "in.foam").write_text(text.replace("variable  kappa     index 0.1", "variable  kappa     index 0.7"))
+    (run / "in.foam").write_text(text.replace("variable      kappa     index 0.1", "variable      kappa     index 0.7"))
     restart.plan(run).do(run)
-    assert "variable  kappa     index 0.7" in (run / "in.resume").read_text()
+    assert "variable      kappa     index 0.7" in (run / "in.resume").read_text()
     (run / "in.foam").write_text(text.replace("# ---------------- run ---", "# run"))
     with pytest.raises(Unusable, match="heading '# ---- run ----' is not there"):
         restart.plan(run)

@@ -24,6 +24,11 @@ def heading(section: str) -> str:
     return f"# ---------------- {section} ".ljust(96, "-")
 
 
+def aligned(text: str) -> str:
+    """Arguments of commands in one column; other lines, such as those that go on, stay as they are."""
+    return re.sub(r"^([a-z_]+) +(?=\S)", lambda match: f"{match[1]:13s} ", text, flags=re.M)
+
+
 def number(value: float) -> str:
     """The shortest text that is the same number; LAMMPS reads it back to the last bit."""
     text = repr(float(value))
@@ -53,12 +58,12 @@ def new_run(foam: Foam, source: str, integrator: str = "abm", tolerance: float |
     for note in foam.notes:
         text += f"# {note}\n"
     for section in SECTIONS:
-        text += f"\n{heading(section)}\n\n{parts[section]}"
+        text += f"\n{heading(section)}\n\n{aligned(parts[section])}"
     return text
 
 
 def _variables(rows: list[tuple[str, str, str]]) -> str:
-    return "".join(f"variable  {name:9s} index {value:12s} # {text}\n" for name, value, text in rows)
+    return "".join(f"variable {name:9s} index {value:10s} # {text}\n" for name, value, text in rows)
 
 
 def _settings(foam: Foam, integrator: str, tolerance: float | None, save: float,
@@ -105,8 +110,8 @@ def _start(foam: Foam) -> str:
     boundary = " ".join("f" if wall else "p" for wall in foam.walls)
     return f"""units     lj
 dimension {foam.dimension}
-boundary  {boundary}{'':14s} # f: a wall, p: periodic
-atom_style sphere 1               # radii change, and are communicated
+boundary  {boundary}{'':15s} # f: a wall, p: periodic
+atom_style sphere 1             # radii change, and are communicated
 create_foam ${{N}} ${{seed}} start grid box {box} sizes normal ${{mean}} ${{std}} rmin ${{rmin}}
 """
 
@@ -295,8 +300,8 @@ def going_on(text: str, name: str, restart: str, title: str | None) -> str:
     found = sections(text, name)
     found["start"] = f"\nread_restart {restart} noremap\n"
     if title is not None:
-        found["tables"] = f"\n# they go on; title is the last line of series.csv so far\n" \
-                          f'{_tables("append", title, "yes", "no")}'
+        found["tables"] = "\n# they go on; title is the last line of series.csv so far\n" \
+                          + aligned(_tables("append", title, "yes", "no"))
     result = f"# Goes on from {restart}; all else is as in {name}. Written by lammps-foam resume.\n"
     for section in SECTIONS:
         if section != "relaxation":
