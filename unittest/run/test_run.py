@@ -300,6 +300,23 @@ def test_other_inputs(tmp_path, changes, options):
         assert len(list(tables.frames(directory / "foam.lammpstrj.gz"))) >= 1
 
 
+def test_ranks(tmp_path):
+    """Several ranks agree on when to write restart files, and a killed run goes on with as many, bit by bit."""
+    options = ["--np", 2, "--save-steps", 100]
+    changes = {"bubbles.numEnd": 97}
+    other = tmp_path / "other"
+    lammps_foam("run", *arguments(other, changes), *options)
+    directory = tmp_path / "foam"
+    killed(directory, "run", [*arguments(directory, changes), *options], reached(directory, 250))
+    free(directory)
+    lammps_foam("resume", directory)
+    assert_same(directory, other)
+    timed = tmp_path / "timed"
+    source, *given = arguments(timed, changes)[:-2]
+    lammps_foam("run", source, *given, "--np", 2, "--save", 1e-3)
+    assert len(restart.files(timed)) == 2 and column(timed, "N")[-1] == 97
+
+
 def test_gzip_is_resumed(tmp_path):
     """A packed dump that was cut in the middle goes on, and holds the frames of one that was not."""
     other = tmp_path / "other"

@@ -155,7 +155,7 @@ def test_resume_cuts_tables(run):
     assert steps(run) == [0, 50, 100, 150]
     text = (run / "in.resume").read_text()
     assert f'variable      title string "{line(200)}"' in text
-    assert "read_restart restart.240 noremap" in text
+    assert "read_restart  restart.240 noremap" in text
     for absent in ("create_foam", "relax_foam", "string file"):
         assert absent not in text
     assert [one.step for one in tables.frames(run / "foam.lammpstrj")] == [0, 100, 200]
@@ -183,6 +183,14 @@ def test_line_at_the_step_of_the_restart_file(run):
     assert f'variable      title string "{line(200)}"' in (run / "in.resume").read_text()
 
 
+def test_ranks_share_the_box_as_before(run):
+    (run / "log.foam").write_text("a\n  2 by 3 by 1 MPI processor grid\nb\n")
+    assert "processors    2 3 1 " in restart.plan(run).text
+    assert "processors" not in restart.plan(run, same_ranks=False).text
+    (run / "log.foam").write_text("  1 by 1 by 1 MPI processor grid\n")
+    assert "processors" not in restart.plan(run).text
+
+
 def test_resume_takes_one_that_lammps_can_read(run):
     plan = restart.plan(run, lambda path: "is refused" if path.name == "restart.240" else None)
     assert plan.told == [f"{run / 'restart.240'} is refused; taking the one before", "goes on from step 120"]
@@ -194,7 +202,7 @@ def test_resume_from_the_relaxed_foam(run):
         (run / f"restart.{step}").unlink()
     restart.plan(run).do(run)
     text = (run / "in.resume").read_text()
-    assert "read_restart restart.0 noremap" in text and "string file" in text and "relax_foam" not in text
+    assert "read_restart  restart.0 noremap" in text and "string file" in text and "relax_foam" not in text
     assert not (run / "foam.lammpstrj").exists()
 
 

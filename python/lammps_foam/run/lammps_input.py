@@ -291,14 +291,15 @@ def sections(text: str, name: str) -> dict[str, str]:
     return found
 
 
-def going_on(text: str, name: str, restart: str, title: str | None) -> str:
+def going_on(text: str, name: str, restart: str, title: str | None, grid: str | None = None) -> str:
     """The text of in.resume: in.foam, but from a restart file.
 
     title: the last line of series.csv before the step of the restart file; None if that is of the relaxed foam, and
-    tables are begun.
+    tables are begun. grid: that of the ranks, if there are several.
     """
     found = sections(text, name)
-    found["start"] = f"\nread_restart {restart} noremap\n"
+    ranks = f"processors {grid}    # as before\n" if grid else ""
+    found["start"] = "\n" + aligned(f"{ranks}read_restart {restart} noremap\n")
     if title is not None:
         found["tables"] = "\n# they go on; title is the last line of series.csv so far\n" \
                           + aligned(_tables("append", title, "yes", "no"))

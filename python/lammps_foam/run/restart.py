@@ -39,6 +39,19 @@ def damage(path: Path) -> str | None:
     return None
 
 
+def processors(directory: Path) -> str | None:
+    """The grid of ranks of the last run that told it, such as 2 1 1; None for one rank.
+
+    LAMMPS would choose it anew, and in a square box it chooses by the last digits of the sides.
+    """
+    found = None
+    for path in sorted(directory.glob("log.foam*"), key=lambda path: path.stat().st_mtime):
+        for match in re.finditer(r"^ +(\d+) by (\d+) by (\d+) MPI processor grid", path.read_text(errors="replace"),
+                                 flags=re.M):
+            found = " ".join(match.groups())
+    return None if found == "1 1 1" else found
+
+
 def prune(directory: Path, keep: int = 2) -> None:
     """Remove restart files but for the last whole ones; those that are being written stay, too."""
     whole = 0
@@ -69,8 +82,10 @@ class Plan:
             path.unlink(missing_ok=True)
 
 
-def plan(directory: Path, readable: Callable[[Path], str | None] = lambda path: None) -> Plan:
+def plan(directory: Path, readable: Callable[[Path], str | None] = lambda path: None, same_ranks: bool = True) -> Plan:
     """How a run goes on. readable(PATH) tries a restart file, and returns what is wrong with it.
+
+    same_ranks: on as many ranks as before, so that they share the box as before.
 
     Raises Unusable if it cannot, and nothing is touched.
     """
@@ -81,7 +96,7 @@ def plan(directory: Path, readable: Callable[[Path], str | None] = lambda path: 
     for step, path in files(directory):
         wrong = damage(path) or readable(path)
         if wrong is None:
-            return _from(directory, step, path, told)
+            return _from(directory, step, path, told, processors(directory) if same_ranks else None)
         told.append(f"{path} {wrong}; taking the one before")
     if told:
         raise Unusable("\n".join([*told[:-1], told[-1].replace("; taking the one before", "; there is no other one. "
@@ -103,7 +118,7 @@ def _anew(directory: Path) -> Plan:
     return Plan("in.foam", told=told)
 
 
-def _from(directory: Path, step: int, path: Path, told: list[str]) -> Plan:
+def _from(directory: Path, step: int, path: Path, told: list[str], grid: str | None) -> Plan:
     text = (directory / "in.foam").read_text()
     series_file = directory / "series.csv"
     title, cut_series = None, None
@@ -118,7 +133,7 @@ def _from(directory: Path, step: int, path: Path, told: list[str]) -> Plan:
                 remove.append(directory / name)
             else:
                 cuts.append(tables.plan_cut(directory / name, step))
-    resumed = lammps_input.going_on(text, str(directory / "in.foam"), path.name, title)
+    resumed = lammps_input.going_on(text, str(directory / "in.foam"), path.name, title, grid)
     told.append(f"goes on from step {step}")
     return Plan("in.resume", resumed, cut_series, cuts, remove, told)
 

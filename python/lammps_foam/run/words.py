@@ -201,7 +201,8 @@ def _resume(options: argparse.Namespace, extra: list[str] | None) -> int:
     lammps, _, _ = launch.settings(record)
     launch.styles(lammps)
     with launch.Lock(directory) as lock:
-        plan = restart.plan(directory, lambda path: launch.readable(lammps, path))
+        plan = restart.plan(directory, lambda path: launch.readable(lammps, path),
+                            same_ranks=options.lmp is None and options.np is None)
         for line in plan.told:
             launch.say(f"{directory}: {line}")
         plan.do(directory)
