@@ -2,11 +2,12 @@
 
 Uncertainties are standard errors (one sigma). With four runs (seeds) or more: from the scatter of the runs' exponents.
 With one run: from a block bootstrap. With two or three: the larger of both, since the scatter of so few says little.
-The bootstrap: <R> is the sum of what happened before, so its deviations from a power law are
-correlated over the whole run, and the standard error of a straight line through its points is far too small. Its
-increments at equal steps of ln(tau) are not: the window is cut into blocks of increments, blocks are drawn with
-replacement, and each series put together from them is fitted again. This is right for a random walk about the law,
-and too large by up to a few times where the foam forgets its deviations within the window: seeds are better.
+
+The bootstrap: <R> is the sum of what happened before. So its deviations from a power law are correlated over the whole
+run, and the standard error of a straight line through its points is far too small. Its increments at equal steps of
+ln(tau) are less so: the window is cut into 8 blocks of increments, blocks are drawn with replacement, and each series
+put together from them is fitted again. This is right for a random walk about the law, and too large by up to a few
+times where the foam forgets its deviations within the window. Several seeds are better.
 """
 
 from __future__ import annotations
