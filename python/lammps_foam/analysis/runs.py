@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -67,10 +68,11 @@ class Clock:
         return float(np.mean(frame.radius)) / self._at("R", frame)
 
     def exchange(self, frame: Frame) -> float:
-        """K = tau <R_in>^2 / t; nan if it is not known."""
-        if self.series is None or not {"time", "tau", "R"} <= set(self.series) or not self.series["time"][-1] > 0:
+        """K = tau <R_in>^2 / t, from the whole table; nan if it is not known."""
+        if self.series is None or not {"time", "tau", "R"} <= set(self.series):
             return float("nan")
-        return float(self.series["tau"][-1] / self.series["time"][-1]) * self.start_radius(frame) ** 2
+        tau, time = (self.series[name][-1] - self.series[name][0] for name in ("tau", "time"))
+        return float(tau / time) * self.start_radius(frame) ** 2 if time > 0 and tau > 0 else float("nan")
 
 
 class Range:
@@ -105,12 +107,24 @@ def add_runs(parser: argparse.ArgumentParser, what: str, out: str) -> None:
                         help=f"writes BASE.csv, BASE.pdf, BASE.png (default: {out})")
 
 
+def alive(frame: Frame) -> Frame:
+    """The frame without bubbles of radius 0: those that fix foam/coarsen has removed, but LAMMPS still has."""
+    radius = frame.columns.get("radius")
+    if radius is None or np.all((radius > 0) & np.isfinite(radius)):
+        return frame
+    wrong = ~(np.isfinite(radius) & (radius >= 0))
+    if wrong.any():
+        raise Unusable(f"{frame.path}, step {frame.step}: {np.count_nonzero(wrong)} bubbles have a radius that is not "
+                       f"finite or below 0, the first {radius[wrong][0]:g}")
+    return replace(frame, columns={name: column[radius > 0] for name, column in frame.columns.items()})
+
+
 def chosen_frames(path: Path, which: Range) -> Iterator[tuple[Frame, float]]:
-    """Frames of a run in a range, each with its tau (nan if not known)."""
+    """Frames of a run in a range, each with its tau (nan if not known); without dead bubbles."""
     clock = Clock(path)
     if which.tau is not None and clock.series is None:
         raise Unusable(f"--tau needs a series.csv with the columns step and tau beside {path}")
-    for frame in read_frames(path):
+    for frame in map(alive, read_frames(path)):
         tau = clock.tau(frame)
         if which.has(tau, len(frame)):
             yield frame, tau
