@@ -309,7 +309,7 @@ def test_ranks(tmp_path):
     directory = tmp_path / "foam"
     killed(directory, "run", [*arguments(directory, changes), *options], reached(directory, 250))
     free(directory)
-    lammps_foam("resume", directory)
+    lammps_foam("resume", directory, "--np", 2)
     assert_same(directory, other)
     timed = tmp_path / "timed"
     source, *given = arguments(timed, changes)[:-2]

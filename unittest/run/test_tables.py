@@ -186,7 +186,8 @@ def test_line_at_the_step_of_the_restart_file(run):
 def test_ranks_share_the_box_as_before(run):
     (run / "log.foam").write_text("a\n  2 by 3 by 1 MPI processor grid\nb\n")
     assert "processors    2 3 1 " in restart.plan(run).text
-    assert "processors" not in restart.plan(run, same_ranks=False).text
+    assert "processors    2 3 1 " in restart.plan(run, ranks=6).text
+    assert "processors" not in restart.plan(run, ranks=4).text
     (run / "log.foam").write_text("  1 by 1 by 1 MPI processor grid\n")
     assert "processors" not in restart.plan(run).text
 

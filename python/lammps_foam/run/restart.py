@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import re
 from dataclasses import dataclass, field
@@ -39,8 +40,10 @@ def damage(path: Path) -> str | None:
     return None
 
 
-def processors(directory: Path) -> str | None:
-    """The grid of ranks of the last run that told it, such as 2 1 1; None for one rank.
+def processors(directory: Path, ranks: int | None) -> str | None:
+    """The grid of ranks of the last run that told it, such as 2 1 1; None for one rank, or if there are others now.
+
+    ranks: how many there are now; None if there are as many as before.
 
     LAMMPS would choose it anew, and in a square box it chooses by the last digits of the sides.
     """
@@ -49,7 +52,9 @@ def processors(directory: Path) -> str | None:
         for match in re.finditer(r"^ +(\d+) by (\d+) by (\d+) MPI processor grid", path.read_text(errors="replace"),
                                  flags=re.M):
             found = " ".join(match.groups())
-    return None if found == "1 1 1" else found
+    if found is None or found == "1 1 1":
+        return None
+    return found if ranks in (None, math.prod(map(int, found.split()))) else None
 
 
 def prune(directory: Path, keep: int = 2) -> None:
@@ -82,10 +87,11 @@ class Plan:
             path.unlink(missing_ok=True)
 
 
-def plan(directory: Path, readable: Callable[[Path], str | None] = lambda path: None, same_ranks: bool = True) -> Plan:
+def plan(directory: Path, readable: Callable[[Path], str | None] = lambda path: None,
+         ranks: int | None = None) -> Plan:
     """How a run goes on. readable(PATH) tries a restart file, and returns what is wrong with it.
 
-    same_ranks: on as many ranks as before, so that they share the box as before.
+    ranks: on how many it goes on; None for as many as before. If there are as many, they share the box as before.
 
     Raises Unusable if it cannot, and nothing is touched.
     """
@@ -96,7 +102,7 @@ def plan(directory: Path, readable: Callable[[Path], str | None] = lambda path: 
     for step, path in files(directory):
         wrong = damage(path) or readable(path)
         if wrong is None:
-            return _from(directory, step, path, told, processors(directory) if same_ranks else None)
+            return _from(directory, step, path, told, processors(directory, ranks))
         told.append(f"{path} {wrong}; taking the one before")
     if told:
         raise Unusable("\n".join([*told[:-1], told[-1].replace("; taking the one before", "; there is no other one. "

@@ -201,11 +201,13 @@ def _resume(options: argparse.Namespace, extra: list[str] | None) -> int:
     lammps, _, _ = launch.settings(record)
     launch.styles(lammps)
     with launch.Lock(directory) as lock:
-        plan = restart.plan(directory, lambda path: launch.readable(lammps, path),
-                            same_ranks=options.lmp is None and options.np is None)
+        # an mpiexec may be in the command of the run, too
+        ranks = None if options.lmp is None and options.np is None else record["np"]
+        plan = restart.plan(directory, lambda path: launch.readable(lammps, path), ranks)
         for line in plan.told:
             launch.say(f"{directory}: {line}")
         plan.do(directory)
+        tables.replace(directory / "run.json", json.dumps(record, indent=1) + "\n")
         return _launch(lock, directory, plan.input, record, f"resumed by {plan.input}")
 
 
