@@ -42,7 +42,7 @@ def test_impossible_radii(tmp_path, radius):
     rows = ROWS.copy()
     rows[1, 4] = radius
     write(tmp_path, rows)
-    with pytest.raises(SystemExit, match="step 0: 1 bubbles have a radius that is not finite or below 0"):
+    with pytest.raises(SystemExit, match="step 0: the bubble id 2 has a position or a radius that is not finite"):
         lammps_foam("sizes", tmp_path, "--N", 1, 5, "--out", tmp_path / "s")
 
 

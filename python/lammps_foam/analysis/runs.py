@@ -112,10 +112,11 @@ def alive(frame: Frame) -> Frame:
     radius = frame.columns.get("radius")
     if radius is None or np.all((radius > 0) & np.isfinite(radius)):
         return frame
-    wrong = ~(np.isfinite(radius) & (radius >= 0))
-    if wrong.any():
-        raise Unusable(f"{frame.path}, step {frame.step}: {np.count_nonzero(wrong)} bubbles have a radius that is not "
-                       f"finite or below 0, the first {radius[wrong][0]:g}")
+    wrong = np.flatnonzero(~(np.isfinite(radius) & (radius >= 0)))
+    if len(wrong):
+        name = f"id {frame['id'][wrong[0]]:.0f}" if "id" in frame.columns else f"number {wrong[0] + 1}"
+        raise Unusable(f"{frame.path}, step {frame.step}: the bubble {name} has a position or a radius that is not finite, "
+                       f"or a negative radius: {radius[wrong[0]]:g}")
     return replace(frame, columns={name: column[radius > 0] for name, column in frame.columns.items()})
 
 
