@@ -150,7 +150,8 @@ def test_command(tmp_path, dimension, capsys, rng):
     for end in (".csv", "-moments.csv", ".pdf", ".png"):
         assert (tmp_path / f"s{end}").stat().st_size > 100
     table = np.genfromtxt(tmp_path / "s.csv", delimiter=",", names=True)
-    assert np.sum(table["P_R"]) * 0.1 == pytest.approx(1, abs=0.01)    # 3 <R> is 3.7 sigma away
+    for of in "RV":    # no bubble lies outside of the bins
+        assert np.sum(table[f"P_{of}"]) * (table[of][1] - table[of][0]) == pytest.approx(1, abs=1e-8)
 
 
 @pytest.mark.parametrize(("arguments", "message"), [

@@ -115,8 +115,8 @@ def alive(frame: Frame) -> Frame:
     wrong = np.flatnonzero(~(np.isfinite(radius) & (radius >= 0)))
     if len(wrong):
         name = f"id {frame['id'][wrong[0]]:.0f}" if "id" in frame.columns else f"number {wrong[0] + 1}"
-        raise Unusable(f"{frame.path}, step {frame.step}: the bubble {name} has a position or a radius that is not finite, "
-                       f"or a negative radius: {radius[wrong[0]]:g}")
+        raise Unusable(f"{frame.path}, step {frame.step}: the bubble {name} has a position or a radius that is "
+                       f"not finite, or a negative radius: {radius[wrong[0]]:g}")
     return replace(frame, columns={name: column[radius > 0] for name, column in frame.columns.items()})
 
 

@@ -178,7 +178,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_range(parser, "frames that are averaged", "a quarter of the first number of bubbles to 100")
     parser.add_argument("--apart", type=float, default=1.3, metavar="F",
                         help="factor by which N falls between frames that are used (default: 1.3)")
-    parser.add_argument("--bins", type=int, default=30, help="of R/<R>, from 0 to 3 (default: 30)")
+    parser.add_argument("--bins", type=int, default=30, help="from 0 to the largest R/<R> and V/<V> (default: 30)")
     parser.epilog = ("example: while 3000 to 300 bubbles are left\n"
                      "  lammps-foam sizes seed1 seed2 seed3 --N 3000 300 --out sizes")
 
@@ -193,7 +193,7 @@ def main(args: argparse.Namespace) -> int:
             raise Unusable(f"{path} is {dimension_here}D, the runs before it {dimension}D")
         radii.append(R)
         dimension = dimension_here
-    edges = [np.linspace(0, 3, args.bins + 1), np.linspace(0, 3 * dimension, args.bins + 1)]
+    edges = [np.linspace(0, max(3, top), args.bins + 1) for top in _largest(radii, dimension)]
     alone = len(radii) == len(radii[0]) == 1
     single = bootstrap_error(radii[0][0], dimension, edges) if alone else [np.zeros(1)] * 3
     measured = [[measure(R, dimension, edges) for R in run] for run in radii]
@@ -212,6 +212,13 @@ def _radii(path: Path, which: Range, factor: float) -> tuple[list[Array], int]:
     if not frames:
         raise Unusable(f"{path} has no frame with two bubbles or more in the range; choose another with --N or --tau")
     return [frames[n][0] for n in apart([len(R) for R, _ in frames], factor)], frames[0][1]
+
+
+def _largest(radii: list[list[Array]], dimension: int) -> tuple[float, float]:
+    """The largest R/<R> and V/<V> of all frames, upward to halves and to whole numbers."""
+    x = max(float(R.max() / R.mean()) for run in radii for R in run)
+    w = max(float(R.max() ** dimension / np.mean(R**dimension)) for run in radii for R in run)
+    return float(np.ceil(2 * x) / 2), float(np.ceil(w))
 
 
 def _report(args: argparse.Namespace, radii: list[list[Array]], dimension: int, edges: list[Array],
@@ -245,8 +252,8 @@ def _draw(columns: dict[str, Array], dimension: int, out: str) -> None:
         for name, style in zip(THEORIES, ("-", "--")):
             p = density_of(name, fine, dimension)
             ax.plot(fine, np.where(p > 0, p, np.nan), style, label=labels[name], zorder=1)
-    axes[0].set(xlabel=r"$R\,/\,\langle R\rangle$", ylabel=r"probability density", ylim=(0, None), xlim=(0, 3))
-    axes[1].set(xlabel=r"$V\,/\,\langle V\rangle$", yscale="log", xlim=(0, 3 * dimension))
+    axes[0].set(xlabel=r"$R\,/\,\langle R\rangle$", ylabel=r"probability density", ylim=(0, None), xlim=(0, None))
+    axes[1].set(xlabel=r"$V\,/\,\langle V\rangle$", yscale="log", xlim=(0, None))
     P = columns["P_V"][columns["P_V"] > 0]
     axes[1].set_ylim(P.min() / 5, 5 * max(P.max(), 1))
     axes[0].legend(loc="upper right")
