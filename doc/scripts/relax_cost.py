@@ -20,10 +20,11 @@ WAYS = [("run, limit 1e-2", "none", "limit 1e-2"), ("run, limit 1e-3", "none", "
         ("run, limit 1e-4", "none", "limit 1e-4 rounds 1000"),
         ("minimize, fire, 1e-6", "fire", "method minimize 0 1e-6 100000 1000000"),
         ("minimize, cg, 1e-6", "cg", "method minimize 0 1e-6 100000 1000000")]
-HEAD = f"{'d':>1} {'phi':>5} {'way':<22}{'evaluations':>12}{'energy/N':>13}{'pressure':>13}{'contacts':>10}{'max force':>11}"
+HEAD = (f"d {'phi':>5} {'way':<22}{'evaluations':>12}{'energy/N':>13}{'pressure':>13}"
+        f"{'contacts':>10}{'max force':>11}")
 
 
-def relax(lmp, dim, phi, style, how, bubbles):
+def relax(lmp, dim, phi, name, style, how, bubbles):
     command = [*lmp, "-in", str(HERE / "in.relax_cost"), "-log", "none", "-nocite", "-var", "dim", str(dim),
                "-var", "phi", str(phi), "-var", "style", style, "-var", "how", how, "-var", "N", str(bubbles)]
     with tempfile.TemporaryDirectory() as directory:
@@ -33,7 +34,8 @@ def relax(lmp, dim, phi, style, how, bubbles):
         sys.exit(f"LAMMPS stopped: {' '.join(command)}\n{done.stdout[-2000:]}{done.stderr[-2000:]}")
     evaluations, energy, pressure, contacts, force = map(float, found[1].split())
     evaluations += sum(int(n) for n in re.findall(r"Iterations, force evaluations = \d+ (\d+)", done.stdout))
-    return f"{dim} {phi:5.2f} {'':<22}{evaluations:12.0f}{energy / bubbles:13.4e}{pressure:13.4e}{contacts:10.3f}{force:11.1e}"
+    return (f"{dim} {phi:5.2f} {name:<22}{evaluations:12.0f}{energy / bubbles:13.4e}{pressure:13.4e}"
+            f"{contacts:10.3f}{force:11.1e}")
 
 
 def main():
@@ -48,8 +50,7 @@ def main():
     print(HEAD)
     for dim, phi in SCENES:
         for name, style, how in WAYS:
-            line = relax(lmp, dim, phi, style, how, args.bubbles)
-            line = line[:8] + f"{name:<22}" + line[30:]
+            line = relax(lmp, dim, phi, name, style, how, args.bubbles)
             print(line, flush=True)
             lines.append(line)
     args.out.mkdir(parents=True, exist_ok=True)

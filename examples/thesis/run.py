@@ -7,13 +7,15 @@
 
 Each run has a directory of its own with the thesis' input, foam.json, and the LAMMPS input in.foam that it means. What
 the thesis' input cannot say is changed there. Relaxation and errors of steps are those of our examples (fix foam/rkc,
-root mean square 1e-3), not the thesis' 1e-5 of the largest error. A run that is complete is not done again, and one that
-was stopped goes on; --dry-run lists the runs. It needs the Python package lammps_foam (pip install . in the top directory).
+root mean square 1e-3), not the thesis' 1e-5 of the largest error. A run that is complete is not done again, and one
+that was stopped goes on; --dry-run lists the runs. It needs the Python package lammps_foam (pip install . in the top
+directory).
 """
 import argparse
 from dataclasses import dataclass, field
 import json
 from pathlib import Path
+import re
 import subprocess
 import sys
 import time
@@ -29,7 +31,7 @@ class Run:
     frequency: float = 0.0     # snapshots per unit of tau
     kappa: float = 0.1
     every: int = 1             # steps between lines of series.csv
-    changes: tuple = field(default=())    # (old, new) lines or parts of them in in.foam
+    changes: tuple = field(default=())    # (old, new) parts of lines in in.foam; a blank stands for any number
 
     def input(self):
         """The thesis' input, nested form: its listings B.1 and B.2 but for sizes and relaxation."""
@@ -78,8 +80,8 @@ def sizes(what):
     return (("sizes normal ${mean} ${std}", f"sizes {what}"),)
 
 
-FLOW = (("fix       gas all", "variable  ux atom 0.02*sin(2*PI*y/ly)\n"
-         "fix       flow all foam/flow field v_ux NULL NULL\nfix       gas all"),)
+FLOW = (("fix gas all", "variable ux atom 0.02*sin(2*PI*y/ly)\n"
+         "fix flow all foam/flow field v_ux NULL NULL\nfix gas all"),)
 
 
 def questions(full, seeds):
@@ -125,9 +127,9 @@ def prepare(run, directory):
         script = directory / "run" / "in.foam"
         text = script.read_text()
         for old, new in run.changes:
-            if text.count(old) != 1:
-                sys.exit(f"{script} should have '{old}' once, and has it {text.count(old)} times")
-            text = text.replace(old, new)
+            text, count = re.subn(re.escape(old).replace("\\ ", " +"), lambda _: new, text)
+            if count != 1:
+                sys.exit(f"{script} should have '{old}' once, and has it {count} times")
         script.write_text(text)
     except BaseException:
         (directory / "foam.json").unlink()    # is prepared again

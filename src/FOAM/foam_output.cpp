@@ -49,6 +49,7 @@ void FoamOutput::schedule_time_dumps(double next_step)
       bigint &next = output->next_dump[d];
       if (update->atime >= target && foreseen) {
         next = now;
+        modify->clearstep_compute();             // LAMMPS leaves that to those who set the time
         modify->addstep_compute_all(now + 1);    // the next step may well be due again
         dump_foreseen = now + 1;
       } else if (update->atime >= target || after_next >= target)

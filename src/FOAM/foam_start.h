@@ -94,12 +94,13 @@ struct Sizes {
 };
 
 // A grid of about so many sites in each dimension as the box's relative lengths have it: whole rows, with room for
-// all bubbles.  The last row (2D) or layer (3D) need not be full.
+// all bubbles.  Sites that stay empty are spread evenly.
 
 struct Grid {
+  std::int64_t bubbles, all = 1;
   std::int64_t sites[3] = {1, 1, 1};
 
-  Grid(int dimension, std::int64_t bubbles, const double (&relative)[3])
+  Grid(int dimension, std::int64_t bubbles, const double (&relative)[3]) : bubbles(bubbles)
   {
     const double n = static_cast<double>(bubbles);
     auto whole = [](double x) {
@@ -117,12 +118,14 @@ struct Grid {
       sites[1] = whole(std::cbrt(n * y * y / (x * z)));
       sites[2] = rest(bubbles, sites[0] * sites[1]);
     }
+    all = sites[0] * sites[1] * sites[2];
   }
 
   double centre(int k, std::int64_t bubble) const    // of its site, in spacings
   {
-    for (int j = 0; j < k; j++) bubble /= sites[j];
-    return static_cast<double>(bubble % sites[k]) + 0.5;
+    std::int64_t site = bubble * all / bubbles;
+    for (int j = 0; j < k; j++) site /= sites[j];
+    return static_cast<double>(site % sites[k]) + 0.5;
   }
 };
 

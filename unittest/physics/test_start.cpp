@@ -177,6 +177,18 @@ TEST(Start, Grid)
   EXPECT_EQ(places.size(), 4000u);
   EXPECT_EQ((*places.begin()), (std::array<double, 3>{0.5, 0.5, 0.5}));
   EXPECT_EQ((*places.rbegin()), (std::array<double, 3>{19.5, 19.5, 9.5}));
+
+  // 13 sites of 16 in use: each once, and no two in succession stay empty
+  const Grid loose(2, 13, square);
+  EXPECT_EQ(loose.all, 16);
+  std::int64_t last_site = -1;
+  for (std::int64_t n = 0; n < 13; n++) {
+    const auto site =
+        static_cast<std::int64_t>(loose.centre(0, n) + 4.0 * (loose.centre(1, n) - 0.5));
+    EXPECT_GT(site, last_site);
+    EXPECT_LE(site, last_site + 2);
+    last_site = site;
+  }
 }
 
 // uniform in length, and in direction: no mean, and as much in each

@@ -215,9 +215,6 @@ dump      foam all {style} 1 {name} &
           {DUMPED}
 dump_modify foam every/time v_shot first ${{first}} append ${{append}} &
           {DUMP_FORMAT}
-# For a dump by time LAMMPS takes the values of computes that it has, of whatever step: this drops them in each step.
-variable  never equal 0
-fix       fresh all halt 1 v_never > 0
 """
 
 
