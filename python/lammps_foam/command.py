@@ -51,6 +51,9 @@ def analyse(word: str, arguments: list[str]) -> int:
     module.add_arguments(parser)
     try:
         return module.main(parser.parse_args(arguments)) or 0
+    except BrokenPipeError:    # who read the table, such as head, has enough
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 0
     except (Unusable, OSError) as wrong:
         sys.exit(f"lammps-foam {word}: {wrong}")
 

@@ -206,8 +206,10 @@ def main(args: argparse.Namespace) -> int:
     whole = fit(runs, start, end)
     origin = _origin(args.origin, whole)
     width = args.window if args.window_N is None else args.window_N
-    if not width > (0 if args.window_N is None else 1):
-        raise Unusable(f"--window {args.window} must be above 0, and --window-N above 1")
+    if args.window_N is not None and not width > 1:
+        raise Unusable(f"--window-N {width:g} must be above 1")
+    if not width > 0:
+        raise Unusable(f"--window {width:g} must be above 0")
     last = min(run["tau"][-1] for run in runs)
     first = max(run["tau"][run["tau"] > 0][0] for run in runs)
     shown = args.show or [max(first, last / 100), last]
