@@ -77,7 +77,7 @@ def test_bubbles_of_the_theory_stay_it(theory, dimension):
 @pytest.mark.parametrize(("theory", "dimension", "spread", "skewness"), [
     ("lsw", 3, 0.243, -0.59), ("lemlich", 2, 0.356, -0.23), ("lemlich", 3, 0.372, -0.10)])
 def test_mean_field_from_a_normal_start(theory, dimension, spread, skewness, rng):
-    """The numbers of doc/analysis.rst: 10 000 bubbles, sd 0.21, averages while 2500 to 700 are left. They are means over
+    """The numbers of doc/analysis.rst: 10 000 bubbles, sd 0.21, averages while 2500 to 700 are left. Means over
     five starts, which scatter by 0.005 and 0.05; limits are three times that."""
     m, found, next_N = POWER[theory], [], 2500.0
     V = np.abs(rng.normal(1, 0.21, 10_000)) ** dimension
