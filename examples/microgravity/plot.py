@@ -6,7 +6,8 @@
 The scaling state is what is left after three quarters of the bubbles are gone. Exponents are slopes d ln <R> / d ln tau
 over that range, and slopes 1/n of R^n = k (tau - tau0), which do not depend on the origin of time; errors are those of
 lammps_foam.analysis.growth: block bootstrap of one run, or the scatter of seeds. Contacts and rattlers are counted in
-all snapshots of that range; rattlers have fewer than four contacts, taken out one after the other.
+all snapshots of that range; rattlers have fewer than four contacts, taken out one after the other. Bubbles that stick
+(law sticky A) rest at a distance of R_i + R_j: contacts are those up to 1 + A times that.
 """
 import argparse
 from collections import defaultdict
@@ -18,6 +19,8 @@ import numpy as np
 
 from lammps_foam.analysis import contacts, figure, growth, runs, sizes, table
 from lammps_foam.analysis.read import Unusable, read_frames
+
+from run import SERIES
 
 NAME = re.compile(r"(?P<series>.+)-(?P<fraction>\d\.\d\d)-(?P<seed>\d+)$")
 LATE = 4.0      # the scaling state begins when so many times fewer bubbles are left
@@ -33,7 +36,12 @@ def found(directory):
     return all_runs
 
 
-def scaling_state(paths):
+def reach_of(series):
+    law = SERIES[series][0].split()
+    return 1.0 + float(law[1]) if law[0] == "sticky" else 1.0
+
+
+def scaling_state(paths, reach):
     """A row of numbers of one series and liquid fraction, and the radii over their mean of each run."""
     series = runs.read_runs(paths, ["R", "N"])
     start = max(runs.tau_of_N(one, one["N"][0] / LATE) for one in series)
@@ -47,7 +55,7 @@ def scaling_state(paths):
             if len(frame) > one["N"][0] / LATE * 1.001:
                 continue
             x, R = frame.positions, frame.radius
-            found_here = contacts.contacts_of(x, R, frame.box)
+            found_here = contacts.contacts_of(x, R, frame.box, reach=reach)
             loose = ~found_here.backbone
             ones = np.ones(len(R))
             means.add(frame, np.column_stack([found_here.number, loose, R**3 * loose]).astype(float),
@@ -71,7 +79,7 @@ def draw(directory):
     rows, radii = [], {}
     for series, by_fraction in all_runs.items():
         for fraction, paths in sorted(by_fraction.items()):
-            row, found_radii = scaling_state(paths)
+            row, found_radii = scaling_state(paths, reach_of(series))
             rows.append({"series": series, "liquid_fraction": fraction, **row})
             radii[series, fraction] = found_radii
     columns = {name: np.array([row[name] for row in rows]) for name in rows[0]}
