@@ -66,7 +66,7 @@ def random_packing(d, n, phi, seed, tilt=0.0):
     x = rng.random((n, 3)) @ box.edges
     if d == 2:
         x[:, 2] = 0
-    return elastic.relaxed(x, radius, box, 1.0, rest=1e-12), radius, box
+    return elastic.relaxed(x, radius, box, 1.0, rest=1e-11), radius, box
 
 
 def rest_energy(x, radius, box, near):
@@ -101,7 +101,7 @@ def test_moduli_by_straining_and_relaxing(d, n, phi, tilt):
     """
     x, radius, box = random_packing(d, n, phi, 4, tilt)
     found, pairs = found_in(x, radius, box)
-    assert elastic.residual(pairs, 1.0, n) < 1e-11 and found.lowest > 0 and found.bubbles > n / 2
+    assert elastic.residual(pairs, 1.0, n) < 1e-9 and found.lowest > 0 and found.bubbles > n / 2
     e = 2e-5
     for A, modulus in [*zip(elastic.directions(d), found.shears), (np.eye(d), None)]:
         energies = [rest_energy(x, radius, box, strained(x, radius, box, A, step)) for step in (-e, 0, e)]
@@ -154,14 +154,14 @@ def test_directions_are_shears_of_one_size():
 def test_command(tmp_path, capsys):
     for run in ("a", "b"):
         (tmp_path / run).mkdir()
-        x, radius, box = random_packing(2, 40, 0.95, ord(run))
+        x, radius, box = random_packing(2, 25, 0.95, ord(run))
         write_dump(tmp_path / run / "foam.lammpstrj", [(x, radius, box)])
         (tmp_path / run / "series.csv").write_text(f"step,tau,R\n0,0.5,{float(radius.mean() / 2)!r}\n")
     runs = [str(tmp_path / "a"), str(tmp_path / "b")]
     analyse("elastic", [*runs, "--out", str(tmp_path / "e")])
     with open(tmp_path / "e.csv") as file:
         rows = list(csv.DictReader(file))
-    x, radius, box = random_packing(2, 40, 0.95, ord("b"))
+    x, radius, box = random_packing(2, 25, 0.95, ord("b"))
     assert float(rows[1]["p"]) == pytest.approx(elastic.pressure(close_pairs(x, radius, box), 2.0, box), rel=1e-6)
     assert "means over 2 runs" in capsys.readouterr().out
     (tmp_path / "a" / "series.csv").unlink()

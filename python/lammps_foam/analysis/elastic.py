@@ -16,8 +16,8 @@ Rattlers (see `lammps-foam contacts`) are taken out for the moduli. What may sti
 whole, carries no force and does not matter. A state has to be at rest: `residual` is the root mean square of the net
 force on a bubble over the mean force of a contact, and `lowest` the lowest eigenvalue of the Hessian over its mean
 diagonal. With a residual above 1e-3, or an eigenvalue below 0, the moduli are not those of a packing. --relax brings a
-state to rest first, without exchange of gas and in the box as it is; with more than a thousand bubbles that takes
-minutes, and relax_foam or minimize of LAMMPS are quicker.
+state to rest first, without exchange of gas and in the box as it is. It is for packings of some hundred bubbles: bring
+larger ones to rest in LAMMPS, by relax_foam or minimize.
 
 The pressure's error is a standard error by leaving out one block of space after the other; that of the moduli is known
 only from several packings: the last lines have the means over runs and their standard errors.

@@ -1,8 +1,8 @@
 """A movie of a run: discs in 2D; in 3D shaded spheres, seen from outside, or a slice through the box.
 
 Written as mp4 where imageio-ffmpeg is installed (pip install "lammps-foam[analysis]"), else as GIF. Colours have the
-same range in all pictures: --range, or what covers 98 % of the bubbles of the first and of the last frame. --log T shows
-frames at equal steps of ln(tau), for each picture the nearest of the dump.
+same range in all pictures: --range, or what covers 98 % of the bubbles of the first and of the last frame. --log T
+shows frames at equal steps of ln(tau), for each picture the nearest of the dump.
 """
 
 from __future__ import annotations
