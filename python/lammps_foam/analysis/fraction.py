@@ -243,8 +243,7 @@ def _draw(columns: dict[str, Array], out: str) -> None:
     right.axhline(1, color="0.7", lw=0.8, zorder=0)
     highest = np.nanmax([1.0, *(columns["clustering"] + columns["clustering_error"])])
     right.set(ylabel="clustering", ylim=(0, 1.2 * highest), xlim=left.get_xlim())
-    for text, y, va in (("dense beside dense", 1.02, "bottom"), ("uniform", 0.98, "top")):
-        right.annotate(text, (0.03, y), xycoords=("axes fraction", "data"), va=va, fontsize=7, color="0.4")
+    right.text(0.03, 0.04, "above 1: dense beside dense\nbelow 1: uniform", transform=right.transAxes, fontsize=7)
     figure.save(fig, out)
 
 
