@@ -39,6 +39,10 @@ void CreateFoam::command(int narg, char **arg)
         "Create_foam makes the box and the bubbles in it, and must come before any other box");
   if (!atom->radius_flag)
     error->all(FLERR, "Create_foam needs atom_style sphere 1, in which radii change");
+  for (int k = 0; k < domain->dimension; k++)
+    if (domain->boundary[k][0] > 1 || domain->boundary[k][1] > 1)
+      error->all(FLERR,
+                 "Create_foam: boundaries must be p or f, those of a gas fraction, not s or m");
   settings(narg, arg);
 
   // a volume of 2 <R> cubed for each site, or what gives phi, in the shape that is wanted; every rank sums up all
@@ -61,8 +65,16 @@ void CreateFoam::command(int narg, char **arg)
   double length[3] = {1.0, 1.0, 1.0};
   for (int k = 0; k < dim; k++) length[k] = relative[k] * std::pow(volume / shape, 1.0 / dim);
 
+  for (int k = 0; k < dim; k++)
+    if (length[k] < 2.0 * sizes.mean)
+      error->all(
+          FLERR,
+          "Create_foam: the box is {:.3g} long in {}, less than a bubble: see keywords box and phi",
+          length[k], "xyz"[k]);
+
   make_box(length);
   make_bubbles(grid, length);
+  tell(length);
 }
 
 void CreateFoam::settings(int narg, char **arg)
@@ -108,10 +120,14 @@ void CreateFoam::settings(int narg, char **arg)
         }},
        {"rmin",
         [&](const Value &v) {
-          sizes.rmin = v.number(FoamInput::ABOVE, 0.0);
+          sizes.rmin = v.between(0.0, 1.0);
+        }},
+       {"types",
+        [&](const Value &v) {
+          types = v.integer(1, MAXSMALLINT);
         }},
        {"phi", [&](const Value &v) {
-          phi = v.number(FoamInput::ABOVE, 0.0);
+          phi = v.between(0.0, 2.0);
         }}});
 }
 
@@ -156,7 +172,7 @@ void CreateFoam::make_box(const double (&length)[3])
   const bool flat = domain->dimension == 2;
   input->one(fmt::format("region create_foam block 0 {:.17g} 0 {:.17g} {} {:.17g} units box",
                          length[0], length[1], flat ? "-0.5" : "0", flat ? 0.5 : length[2]));
-  input->one("create_box 1 create_foam");
+  input->one(fmt::format("create_box {} create_foam", types));
   input->one("region create_foam delete");
 }
 
@@ -200,9 +216,25 @@ void CreateFoam::make_bubbles(const Foam::Grid &grid, const double (&length)[3])
   if (atom->natoms != bubbles)
     error->all(FLERR, "Create_foam: {} of {} bubbles could be put into the box", atom->natoms,
                bubbles);
-  if (comm->me == 0)
-    utils::logmesg(lmp,
-                   "Create_foam: {} bubbles, mean radius {:.8g}, in a box of {:.8g} x {:.8g}{}\n",
-                   bubbles, sizes.mean, length[0], length[1],
-                   dim == 3 ? fmt::format(" x {:.8g}", length[2]) : "");
+}
+
+// as they are: of a distribution that was drawn from, and that has no negative or small radii
+
+void CreateFoam::tell(const double (&length)[3])
+{
+  const double smallest = sizes.rmin * sizes.mean;
+  double mine[2] = {0.0, 0.0}, all[2];    // radii, bubbles of the smallest
+  for (int i = 0; i < atom->nlocal; i++) {
+    mine[0] += atom->radius[i];
+    if (sizes.kind != Foam::Sizes::LISTED && atom->radius[i] == smallest) mine[1]++;
+  }
+  MPI_Allreduce(mine, all, 2, MPI_DOUBLE, MPI_SUM, world);
+  if (comm->me != 0) return;
+  std::string lifted;
+  if (all[1] > 0.0)
+    lifted = fmt::format(" ({:.0f} are lifted to the smallest, {:.3g})", all[1], smallest);
+  utils::logmesg(lmp,
+                 "Create_foam: {} bubbles, mean radius {:.8g}{}, in a box of {:.8g} x {:.8g}{}\n",
+                 bubbles, all[0] / static_cast<double>(bubbles), lifted, length[0], length[1],
+                 domain->dimension == 3 ? fmt::format(" x {:.8g}", length[2]) : "");
 }

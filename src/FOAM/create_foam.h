@@ -32,6 +32,7 @@ class CreateFoam : public Command {
 
  private:
   bigint bubbles = 0, seed = 0;
+  int types = 1;    // of particles that the box has room for; bubbles are of type 1
   bool on_grid = true;
   double relative[3] = {1.0, 1.0, 1.0};    // lengths of the box
   double phi = 0.0;                        // its gas fraction; 0: sites of the grid are 2 <R> wide
@@ -41,6 +42,7 @@ class CreateFoam : public Command {
   void read_sizes(const std::string &file);
   void make_box(const double (&length)[3]);
   void make_bubbles(const Foam::Grid &, const double (&length)[3]);
+  void tell(const double (&length)[3]);
 };
 
 }    // namespace LAMMPS_NS

@@ -71,7 +71,8 @@ int FixFoamIntegrate::pack_restart(int i, double *buf)
   return 2 + pack_exchange(i, buf + 2);
 }
 
-// What was in use when the file was written may be so again; residuals only if LAMMPS keeps less here, too
+// What was in use when the file was written may be so again; residuals only if LAMMPS keeps less here, too, and
+// paths only if they are asked for
 
 void FixFoamIntegrate::unpack_restart(int i, int nth)
 {
@@ -82,7 +83,7 @@ void FixFoamIntegrate::unpack_restart(int i, int nth)
   const FoamColumnList all = travelling();
   for (size_t n = 0; n < all.size(); n++) {
     if (!(in_use & (1u << n))) continue;
-    if (all[n] != &residuals) all[n]->use(atom->nmax);
+    if (all[n] != &residuals && (all[n] != &path || paths)) all[n]->use(atom->nmax);
     all[n]->unpack(i, extra);
     extra += all[n]->capacity();
   }

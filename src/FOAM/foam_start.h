@@ -65,7 +65,8 @@ struct Sizes {
 
   double radius(const Draws &draws, std::uint64_t bubble, std::uint64_t bubbles) const
   {
-    return std::max(drawn(draws, bubble, bubbles), rmin * mean);
+    const double R = drawn(draws, bubble, bubbles);
+    return kind == LISTED ? R : std::max(R, rmin * mean);    // those of a file are as they are
   }
 
  private:

@@ -21,6 +21,7 @@
 #include "fix.h"
 #include "input.h"
 #include "modify.h"
+#include "timer.h"
 #include "update.h"
 #include "utils.h"
 
@@ -36,23 +37,8 @@ using namespace LAMMPS_NS;
 void RelaxFoam::command(int narg, char **arg)
 {
   settings(narg, arg);
-  if (!domain->box_exist || atom->natoms == 0)
-    error->all(FLERR, "Relax_foam: there is no bubble yet: see create_foam");
-  pair = PairFoam::of(lmp);
-  if (!pair) error->all(FLERR, "Relax_foam needs one pair_style durian/foam");
-  bool integrated = false, exchanges = false;
-  for (auto &ifix : modify->get_fix_list()) {
-    if (FoamHub::integrates(ifix)) integrated = true;
-    if (utils::strmatch(ifix->style, "^foam/coarsen")) exchanges = true;
-  }
-  if (minimize.empty() && !integrated)
-    error->all(FLERR, "Relax_foam with method run needs fix foam/rkc or foam/abm");
-  if (exchanges)
-    error->all(FLERR, "Relax_foam keeps the radii: give it before fix foam/coarsen, or unfix that");
-  if ((phi > 0.0 || pressure > 0.0) && domain->triclinic)
-    error->all(
-        FLERR,
-        "Relax_foam scales orthogonal boxes only: with a tilt, use neither phi nor pressure");
+  check();
+  if (limit == 0.0) limit = 1.0e-3 * pair->stiffest() / pair->mu0;
 
   if (phi > 0.0) {
     relax();
@@ -68,13 +54,45 @@ void RelaxFoam::command(int narg, char **arg)
     relax_until_rest();
 }
 
+void RelaxFoam::check()
+{
+  if (!domain->box_exist || atom->natoms == 0)
+    error->all(FLERR, "Relax_foam: there is no bubble yet: see create_foam");
+  pair = PairFoam::of(lmp);
+  if (!pair) error->all(FLERR, "Relax_foam needs one pair_style durian/foam");
+  bool integrated = false;
+  for (auto &ifix : modify->get_fix_list()) {
+    if (FoamHub::integrates(ifix)) integrated = true;
+    if (utils::strmatch(ifix->style, "^foam/coarsen"))
+      error->all(FLERR,
+                 "Relax_foam keeps the radii: give it before fix foam/coarsen, or unfix that");
+    if (!utils::strmatch(ifix->style, "^foam/wall")) continue;
+    if (!ifix->thermo_energy || (pressure > 0.0 && !ifix->thermo_virial))
+      error->all(FLERR,
+                 "Relax_foam: energy and pressure must be those of walls, too: fix_modify {} "
+                 "energy yes virial yes",
+                 ifix->id);
+  }
+  if (minimize.empty() && !integrated)
+    error->all(FLERR, "Relax_foam with method run needs fix foam/rkc or foam/abm");
+  if (phi == 0.0 && pressure == 0.0) return;
+  if (domain->triclinic)
+    error->all(
+        FLERR,
+        "Relax_foam scales orthogonal boxes only: with a tilt, use neither phi nor pressure");
+  for (int k = 0; k < domain->dimension; k++)
+    if (domain->boundary[k][0] > 1 || domain->boundary[k][1] > 1)
+      error->all(FLERR,
+                 "Relax_foam: boundaries of a box that is scaled must be p or f, not s or m");
+}
+
 void RelaxFoam::settings(int narg, char **arg)
 {
   using Value = FoamInput::Value;
   FoamInput input(error, "Relax_foam", narg, arg);
   input.keywords({{"phi",
                    [&](const Value &v) {
-                     phi = v.number(FoamInput::ABOVE, 0.0);
+                     phi = v.between(0.0, 2.0);
                    }},
                   {"pressure",
                    [&](const Value &v) {
@@ -99,39 +117,57 @@ void RelaxFoam::settings(int narg, char **arg)
                   {"method", [&](const Value &v) {
                      minimize.clear();
                      if (v.one_of({"run", "minimize"}) == 0) return;
-                     auto word = [&](const char *what, bool whole) {
-                       const auto value = input.argument(std::string("method minimize ") + what);
-                       return whole
-                                  ? fmt::format(" {}", value.integer(1, MAXSMALLINT))
-                                  : fmt::format(" {:.17g}", value.number(FoamInput::AT_LEAST, 0.0));
+                     auto part = [&](const char *what) {
+                       return input.argument(std::string("method minimize ") + what);
                      };
-                     minimize = word("etol", false);
-                     minimize += word("ftol", false);
-                     minimize += word("maxiter", true);
-                     minimize += word("maxeval", true);
+                     etol = part("etol").number(FoamInput::AT_LEAST, 0.0);
+                     ftol = part("ftol").number(FoamInput::AT_LEAST, 0.0);
+                     const int maxiter = part("maxiter").integer(1, MAXSMALLINT);
+                     const int maxeval = part("maxeval").integer(1, MAXSMALLINT);
+                     minimize = fmt::format("minimize {:.17g} {:.17g} {} {}", etol, ftol, maxiter,
+                                            maxeval);
                    }}});
 }
 
+// LAMMPS' minimize does not say how it ended, but forces do
+
 void RelaxFoam::relax()
 {
-  if (minimize.empty())
+  if (minimize.empty()) {
     input->one(fmt::format("run {} post no", steps));
-  else
-    input->one("minimize" + minimize);
+    update->update_time();
+    if (timer->is_timeout())
+      error->all(FLERR,
+                 "Relax_foam: the run was stopped by timer timeout before the foam was at rest");
+    return;
+  }
+  input->one(minimize);
+  double mine = 0.0, all = 0.0;
+  for (int i = 0; i < atom->nlocal; i++)
+    for (int k = 0; k < 3; k++) mine += atom->f[i][k] * atom->f[i][k];
+  MPI_Allreduce(&mine, &all, 1, MPI_DOUBLE, MPI_SUM, world);
+  if (etol > 0.0 || !(std::sqrt(all) > 2.0 * ftol))
+    return;    // of another norm, it may be a little more
+  const std::string told = fmt::format(
+      "Relax_foam: minimize ended with forces of {:.3g} (2-norm), above its ftol of {:.3g}: "
+      "raise maxiter and maxeval, or choose another min_style",
+      std::sqrt(all), ftol);
+  if (pressure > 0.0) error->all(FLERR, told);
+  if (comm->me == 0) error->warning(FLERR, told);
 }
 
 // Until the energy changes by less than limit of it in a unit of time, 2 |E2 - E1| / ((E1 + E2) (t2 - t1)); loose
 // bubbles lose all of it, and then rest at some 1e-12 of what was there.
 
-void RelaxFoam::relax_until_rest()
+double RelaxFoam::relax_until_rest()
 {
+  const double start = update->atime;
   relax();
-  if (!minimize.empty()) return;
+  if (!minimize.empty()) return 0.0;
   double e1 = energy(), t1 = update->atime;
   energy_most = std::max(energy_most, e1);
   for (int round = 1; round <= rounds; round++) {
     relax();
-    update->update_time();
     const double e2 = energy(), t2 = update->atime;
     const double floor = 1.0e-12 * energy_most;
     const double change =
@@ -141,29 +177,46 @@ void RelaxFoam::relax_until_rest()
           lmp,
           "Relax_foam: round {}, energy {:.8g}, of it {:.3g} in a unit of time, limit {:.3g}\n",
           round, e2, change, limit);
-    if (change < limit) return;
+    if (change < limit) return t2 - start;
     e1 = e2;
     t1 = t2;
   }
   if (comm->me == 0)
     error->warning(FLERR, "Relax_foam: the energy does not rest after {} rounds of {} steps",
                    rounds, steps);
+  return update->atime - start;
+}
+
+void RelaxFoam::relax_for(double time)
+{
+  const double end = update->atime + time;
+  for (int round = 0; round < rounds && update->atime < end; round++) relax();
 }
 
 // ln phi by the secant of the last two pressures, no more than 5 % at once. A foam without pressure is compressed
-// by 2 % of its gas fraction until it has one.
+// by 2 % of its gas fraction until it has one.  The pressure goes on to fall while the foam relaxes: it is the one that
+// is wanted if it still is so after twice the time.
 
 void RelaxFoam::reach_pressure()
 {
   constexpr double MOST = 0.05, COMPRESS = 0.02, FIRST = 0.002;
   double step = 0.0, before = 0.0;
-  for (int n = 0; n <= rounds; n++) {
-    relax_until_rest();
-    const double now = pressure_now(), off = pressure - now;
+  auto found = [&](double now) {
+    const double fraction = gas_fraction();
     if (comm->me == 0)
       utils::logmesg(lmp, "Relax_foam: pressure {:.8g} at gas fraction {:.8g}, wanted {:.8g}\n",
-                     now, gas_fraction(), pressure);
-    if (std::abs(off) <= tolerance * pressure) return;
+                     now, fraction, pressure);
+    return std::abs(pressure - now) <= tolerance * pressure;
+  };
+  for (int n = 0; n <= rounds; n++) {
+    const double spent = relax_until_rest();
+    double now = pressure_now();
+    if (found(now)) {
+      relax_for(spent);
+      now = pressure_now();
+      if (found(now)) return;
+    }
+    const double off = pressure - now;
     const double slope = step != 0.0 ? (now - before) / step : 0.0;    // dp / d ln phi
     if (now <= 1.0e-3 * pressure)
       step = COMPRESS;

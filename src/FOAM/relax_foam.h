@@ -32,17 +32,20 @@ class RelaxFoam : public Command {
  private:
   double phi = 0.0;         // gas fraction to reach; 0: none is given
   double pressure = 0.0;    // pressure to reach; 0: none is given
-  double tolerance = 1.0e-3;
+  double tolerance = 1.0e-2;
   int steps = 50, rounds = 50;
-  double limit = 1.0e-3;    // rest: relative change of energy in a unit of time
+  double limit = 0.0;       // rest: relative change of energy in a unit of time; 0: the default
   std::string minimize;     // arguments of that command; empty: runs
+  double etol = 0.0, ftol = 0.0;
 
   class PairFoam *pair = nullptr;
   double energy_most = 0.0;
 
   void settings(int, char **);
-  void relax();    // a run of so many steps, or a minimization
-  void relax_until_rest();
+  void check();
+  void relax();                 // a run of so many steps, or a minimization
+  double relax_until_rest();    // the time that it took
+  void relax_for(double time);
   void reach_pressure();
   void scale(double factor);    // lengths of the box, and distances of centres
   double energy();

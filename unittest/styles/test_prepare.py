@@ -105,12 +105,12 @@ def test_between_walls_all_are_inside(lmp, start):
 
 
 def test_sizes_of_a_file(lmp):
-    files = {"radii": "# measured\n1.5 2.5   # two\n\n0.5\n"}
+    files = {"radii": "# measured\n1.5 2.5   # two\n\n0.05\n"}    # they are not lifted to rmin
     each_once = create(lmp, "3 1 sizes file radii", files=files).dump("start")[0]
-    assert np.array_equal(each_once["radius"], [1.5, 2.5, 0.5]) and sides(each_once, 2) == pytest.approx([6.0, 6.0])
+    assert np.array_equal(each_once["radius"], [1.5, 2.5, 0.05]) and sides(each_once, 2) == pytest.approx([5.4, 5.4])
     drawn = create(lmp, "900 1 sizes file radii", files=files).dump("start")[0]
     values, times = np.unique(drawn["radius"], return_counts=True)
-    assert np.array_equal(values, [0.5, 1.5, 2.5])
+    assert np.array_equal(values, [0.05, 1.5, 2.5])
     assert np.all(np.abs(times - 300) < 5 * np.sqrt(900 * 2 / 9))    # five standard deviations
 
 
@@ -130,14 +130,35 @@ def test_hardly_a_foam(lmp, n):
     ("10 1 sizes file nowhere", "the file nowhere cannot be read"),
     ("10 1 sizes file words", "the file words has many in line 2, where a radius > 0 is wanted"),
     ("10 1 sizes file nothing", "the file nothing has no radius in it"),
-    ("10 1 phi nan", "phi must be a number > 0, not nan"),
+    ("10 1 phi nan", "phi must be a number > 0 and < 2, not nan"),
+    ("10 1 phi 90", "phi must be a number > 0 and < 2, not 90"),
+    ("10 1 rmin 2", "rmin must be a number > 0 and < 1, not 2"),
+    ("10 1 types 0", "types must be an integer from 1 to"),
+    ("10 1 box 1e12 1", "long in y, less than a bubble"),
     ("10 1 box 1", "argument box y is missing: a number > 0"),
-    ("10 1 colour red", "unknown keyword colour (allowed are start, box, sizes, rmin, phi)"),
+    ("10 1 colour red", "unknown keyword colour (allowed are start, box, sizes, rmin, types, phi)"),
 ])
 def test_bad_input(lmp, what, complaint):
     result = create(lmp, what, files={"words": "1.0\n2.0 many\n", "nothing": "# none\n"}, check=False)
     assert result.returncode != 0
     assert any("Create_foam" in line and complaint in line for line in result.errors), result.errors
+
+
+def test_tells_the_mean_as_it_is_and_what_was_lifted(lmp):
+    result = create(lmp, "1000 1 sizes normal 1.0 0.8")
+    R = result.dump("start")[0]["radius"]
+    told = re.search(r"mean radius (\S+) \((\d+) are lifted to the smallest, 0.1\)", result.screen)
+    assert float(told[1]) == pytest.approx(R.mean(), rel=1e-7) and int(told[2]) == (R == 0.1).sum() > 0
+
+
+def test_room_for_other_types(lmp):
+    create(lmp, "10 1 types 2", then="set atom 3 type 2")
+
+
+def test_shrink_wrapped_boundaries_are_refused(lmp):
+    for then, boundary in (("", "s p p"), ("", "p m p")):
+        result = create(lmp, "10 1", boundary=boundary, then=then, check=False)
+        assert "boundaries must be p or f" in result.errors[0]
 
 
 def test_only_once_and_with_radii(lmp):
@@ -189,6 +210,26 @@ def test_reaches_a_pressure(lmp, dim, pressure):
     assert result.thermo[-1]["c_p"][-1] == pytest.approx(pressure, rel=1e-2)
 
 
+@pytest.mark.parametrize("step", ["rkc 1e-3", "abm 1e-3"])
+def test_pressure_is_that_at_rest(lmp, step):
+    """It stays as the foam relaxes on for as long as it has until then: within twice what is allowed."""
+    then = MECHANICS + f"fix step all foam/{step}\nrelax_foam pressure 0.005 within 1e-2\nrun 0\nrelax_foam\nrun 0"
+    result = create(lmp, "300 1", then=then)
+    assert result.thermo[-1]["c_p"][-1] == pytest.approx(0.005, rel=2e-2)
+
+
+def test_limit_follows_the_units(lmp):
+    """Ten times the drag, a tenth of the springs: the default limit is a hundredth, and the foam rests after as many
+    rounds at the same energy, but for what rounding errors have grown to."""
+    def told(mu0, sigma0):
+        text = MECHANICS.replace("durian/foam 1.0", f"durian/foam {mu0}").replace("* * 1.0", f"* * {sigma0}")
+        result = create(lmp, "200 1 phi 0.9", then=text + f"timestep {0.01 * mu0 / sigma0}\n" + RKC + "relax_foam")
+        rounds = re.findall(r"round (\d+), energy (\S+), of it \S+ in a unit of time, limit (\S+)", result.screen)
+        return len(rounds), float(rounds[-1][1]) / sigma0, float(rounds[-1][2])
+    plain, slow = told(1.0, 1.0), told(10.0, 0.1)
+    assert slow[0] == plain[0] and slow[1] == pytest.approx(plain[1], rel=2e-2) and slow[2] == plain[2] / 100
+
+
 def test_pressure_from_above_and_below_is_near(lmp):
     """A packing remembers how it was made, but not by much: gas fractions at one pressure within 2 %."""
     found = [content(frame, 2) / np.prod(sides(frame, 2))
@@ -216,6 +257,9 @@ def test_ranks(lmp):
 
 def test_between_walls(lmp):
     wall = RKC + "fix walls all foam/wall xlo xhi ylo yhi\n"
+    result = relax(lmp, "phi 0.9", method=wall, boundary="f f p", check=False)
+    assert "fix_modify walls energy yes virial yes" in result.errors[0]
+    wall += "fix_modify walls energy yes virial yes\n"
     result = relax(lmp, "phi 0.9", method=wall, boundary="f f p")
     frame = result.dump("start")[0]
     assert len(frame) == 500
@@ -223,7 +267,7 @@ def test_between_walls(lmp):
 
 
 @pytest.mark.parametrize("what, method, complaint", [
-    ("phi 0", RKC, "phi must be a number > 0, not 0"),
+    ("phi 0", RKC, "phi must be a number > 0 and < 2, not 0"),
     ("pressure -1", RKC, "pressure must be a number > 0, not -1"),
     ("steps 0", RKC, "steps must be an integer from 1 to"),
     ("method annealing", RKC, "method must be run or minimize, not annealing"),
@@ -232,7 +276,9 @@ def test_between_walls(lmp):
     ("phi 0.9", RKC + "fix gas all foam/coarsen 1e-3 0.1\n", "Relax_foam keeps the radii"),
     ("phi 0.9", RKC + "change_box all triclinic\n", "Relax_foam scales orthogonal boxes only"),
     ("hurry yes", RKC, "unknown keyword hurry"),
-    ("pressure 1.0 rounds 1", RKC, "Relax_foam: no pressure of 1 within 0.001 of it after 1 changes of the box"),
+    ("pressure 1.0 rounds 1", RKC, "Relax_foam: no pressure of 1 within 0.01 of it after 1 changes of the box"),
+    ("pressure 0.01 method minimize 0 1e-8 3 10", "", "minimize ended with forces of"),
+    ("phi 0.9", RKC + "timer timeout 0:00:00\n", "stopped by timer timeout before the foam was at rest"),
 ])
 def test_bad_relaxation(lmp, what, method, complaint):
     result = relax(lmp, what, method=method, check=False)

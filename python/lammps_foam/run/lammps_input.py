@@ -124,6 +124,7 @@ neighbor  $(0.5*v_mean) bin
     if any(foam.walls):
         faces = " ".join(f"{axis}lo {axis}hi" for axis, wall in zip("xyz", foam.walls) if wall)
         text += f"fix       walls all foam/wall {faces} drag ${{walldrag}}\n"
+        text += "fix_modify walls energy yes virial yes    # pe and pressure are those of walls, too\n"
     return text
 
 
