@@ -38,7 +38,7 @@ void RelaxFoam::command(int narg, char **arg)
 {
   settings(narg, arg);
   check();
-  if (limit == 0.0) limit = 1.0e-3 * pair->stiffest() / pair->mu0;
+  if (limit < 0.0) limit = 1.0e-3 * pair->stiffest() / pair->mu0;
 
   if (phi > 0.0) {
     relax();
@@ -112,7 +112,7 @@ void RelaxFoam::settings(int narg, char **arg)
                    }},
                   {"limit",
                    [&](const Value &v) {
-                     limit = v.number(FoamInput::ABOVE, 0.0);
+                     limit = v.number(FoamInput::AT_LEAST, 0.0);
                    }},
                   {"method", [&](const Value &v) {
                      minimize.clear();

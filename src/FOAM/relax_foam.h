@@ -34,7 +34,7 @@ class RelaxFoam : public Command {
   double pressure = 0.0;    // pressure to reach; 0: none is given
   double tolerance = 1.0e-2;
   int steps = 50, rounds = 50;
-  double limit = 0.0;       // rest: relative change of energy in a unit of time; 0: the default
+  double limit = -1.0;      // rest: relative change of energy in a unit of time; below 0: the default
   std::string minimize;     // arguments of that command; empty: runs
   double etol = 0.0, ftol = 0.0;
 

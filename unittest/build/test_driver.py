@@ -119,7 +119,7 @@ def test_ranks_are_lammps(tmp_path):
 def test_command_of_the_package():
     command = ENVIRONMENT / "bin" / "lammps-foam"
     usage = subprocess.run([command], capture_output=True, text=True)
-    assert usage.returncode == 0 and usage.stdout.startswith("usage: lammps-foam lmp")
+    assert usage.returncode == 0 and usage.stdout.startswith("usage: lammps-foam WORD")
     wrong = subprocess.run([command, "lpm"], capture_output=True, text=True)
-    assert wrong.returncode != 0 and wrong.stderr == (
-        "lammps-foam: 'lpm' is no word of mine; these are: lmp, help\n")
+    assert wrong.returncode != 0
+    assert wrong.stderr.startswith("lammps-foam: 'lpm' is no word of mine; these are: lmp, run, resume, growth, sizes, ")

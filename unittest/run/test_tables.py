@@ -303,3 +303,9 @@ def test_results_of_loose_bubbles(tmp_path):
     path.write_text("\n".join([",".join(NAMES), line(0, 0, 0.0), line(50, 1, 0.0)]) + "\n")
     snapshots.results(tmp_path)
     assert json.loads((tmp_path / "results.csv").read_text().splitlines()[1].split(",")[7]) == 0
+
+
+def test_lines_further_apart_since_the_last_resume(run):
+    """`every` may be changed in in.foam before a resume: no line is missing for that."""
+    series(run / "series.csv", [0, 20, 40, 60, 110, 160, 210])
+    assert restart.plan(run)

@@ -156,10 +156,12 @@ def _lines_before(directory: Path, series_file: Path, step: int, restart: str) -
         raise Unusable(f"{series_file}: has no line before step {step}, so it cannot go on from {restart}. Nothing was "
                        "changed")
     if len(steps) > 1:
-        distance = steps[1] - steps[0]
+        apart = [at - before for before, at in zip(steps, steps[1:])]
+        # `every` may have been changed before a resume: what comes again and again is one, and the first is
+        distance = max(one for one in set(apart) if one == apart[0] or apart.count(one) >= 2)
         gaps = [before for before, at in zip(steps, steps[1:]) if at - before > distance and at < step]
         last = max(at for at in steps if at < step)
-        if gaps or step - last > distance:
+        if gaps or step - last > max(apart):
             raise Unusable(f"{series_file}: lines are missing after step {gaps[0] if gaps else last} (a disk that was "
                            f"full?), so it cannot go on from {restart}. Nothing was changed")
     return kept, series.names
