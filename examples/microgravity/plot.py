@@ -7,7 +7,8 @@ The scaling state is what is left after three quarters of the bubbles are gone. 
 over that range, and slopes 1/n of R^n = k (tau - tau0), which do not depend on the origin of time; errors are those of
 lammps_foam.analysis.growth: block bootstrap of one run, or the scatter of seeds. Contacts and rattlers are counted in
 all snapshots of that range; rattlers have fewer than four contacts, taken out one after the other. Bubbles that stick
-(law sticky A) rest at a distance of R_i + R_j: contacts are those up to 1 + A times that.
+(law sticky A) rest at a distance of R_i + R_j: contacts are those up to 1 + A times that. z_wide counts so in all
+series, with A = 0.05: that alone can be compared between laws.
 """
 import argparse
 from collections import defaultdict
@@ -23,6 +24,7 @@ from lammps_foam.analysis.read import Unusable, read_frames
 from run import SERIES
 
 NAME = re.compile(r"(?P<series>.+)-(?P<fraction>\d\.\d\d)-(?P<seed>\d+)$")
+WIDE = 1.05     # reach of contacts that is the same for all laws
 LATE = 4.0      # the scaling state begins when so many times fewer bubbles are left
 
 
@@ -37,6 +39,7 @@ def found(directory):
 
 
 def reach_of(series):
+    """Up to which share of R_i + R_j bubbles are in contact."""
     law = SERIES[series][0].split()
     return 1.0 + float(law[1]) if law[0] == "sticky" else 1.0
 
@@ -58,11 +61,12 @@ def scaling_state(paths, reach):
             found_here = contacts.contacts_of(x, R, frame.box, reach=reach)
             loose = ~found_here.backbone
             ones = np.ones(len(R))
-            means.add(frame, np.column_stack([found_here.number, loose, R**3 * loose]).astype(float),
-                      np.column_stack([ones, ones, R**3]))
+            wide = contacts.contacts_of(x, R, frame.box, reach=WIDE)
+            means.add(frame, np.column_stack([found_here.number, wide.number, loose, R**3 * loose]).astype(float),
+                      np.column_stack([ones, ones, ones, R**3]))
             radii.append((R / R.mean(), loose))
     value, error = means.values()
-    for name, v, e in zip(("z", "rattlers", "rattlers_gas"), value, error):
+    for name, v, e in zip(("z", "z_wide", "rattlers", "rattlers_gas"), value, error):
         row[name], row[f"{name}_error"] = float(v), float(e)
     x = np.concatenate([r for r, _ in radii])
     row["polydispersity"] = float(np.cbrt(np.mean(x**3))**2 / np.mean(x**2) - 1)
@@ -91,8 +95,12 @@ def draw(directory):
 
 def draw_states(columns, base):
     fig, axes = figure.panels(2, 2, height=2.3)
-    panels = (("1/n", "growth exponent 1/n"), ("z", "contacts of a bubble"), ("rattlers", "share of rattlers"),
+    panels = (("1/n", "growth exponent 1/n"),
+              ("z_wide", r"neighbours at $r < 1.05\,(R_i+R_j)$"),
+              ("rattlers", "share of rattlers"),
               ("width", r"width of sizes, sd / $\langle R\rangle$"))
+    uncertain = columns["1/n_error"] > 0.2    # the range was too short to tell n and tau0 apart
+    columns = {**columns, "1/n": np.where(uncertain, np.nan, columns["1/n"])}
     for number, name in enumerate(dict.fromkeys(columns["series"])):
         mine = columns["series"] == name
         x = columns["liquid_fraction"][mine]

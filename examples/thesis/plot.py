@@ -12,6 +12,7 @@ from lammps_foam.analysis.avalanches import analyse
 from lammps_foam.analysis.read import read_frames
 
 LATE = 5.0      # exponents are of what comes after so many times fewer bubbles are left, and before
+COLORS = [*(f"C{n}" for n in range(7)), "0.5"]
 LAST = 1.3      # so many times as many as in the last line
 
 
@@ -61,6 +62,11 @@ def exponents(directory, names):
     figure.save(fig, directory / "exponents")
 
 
+def error_of(values):
+    """Standard error of a mean; nan of fewer than five, of which none is known."""
+    return np.std(values, ddof=1) / np.sqrt(len(values)) if len(values) >= 5 else np.nan
+
+
 def avalanches(directory, names):
     """Energy, its loss and the variance of velocities, a column for each gas fraction; do drops and spikes meet?"""
     fig, axes = figure.panels(3, len(names), width=2.2, height=1.6)
@@ -70,15 +76,15 @@ def avalanches(directory, names):
         found = analyse(series, start, end, threshold=3.0, window=1.0)
         widths = found.drops.end - found.drops.start
         rows.append({"phi": name[3:7], "drops": len(found.drops), "per_ln_tau": len(found.drops) / np.log(end / start),
-                     "width": np.mean(widths), "width_error": np.std(widths) / np.sqrt(max(len(widths), 1)),
+                     "width": np.mean(widths), "width_error": error_of(widths),
                      "size": np.mean(found.size), "with_spike": np.mean(found.with_spike),
                      "by_chance": np.mean(found.shares), "correlation": found.correlation})
         tau, shown = np.exp(found.ln_tau), slice(-len(found.ln_tau) // 3, None)    # the last third, to see events
         for ax, values, label in zip(axes[column::len(names)], (found.energy, found.loss, found.vvar),
                                      ("energy", r"$-\mathrm{d}\ln E/\mathrm{d}\ln\tau$", "variance of velocity")):
             ax.plot(tau[shown], values[shown], lw=0.6)
-            if values is not found.energy:
-                ax.set(yscale="log", ylim=(np.quantile(np.abs(values[shown]), 0.02), None))
+            if values is found.vvar:
+                ax.set(yscale="log")
             for when in np.exp(found.drops.peak):
                 if when > tau[shown][0]:
                     ax.axvline(when, color="C1", lw=0.5, alpha=0.6, zorder=0)
@@ -89,6 +95,11 @@ def avalanches(directory, names):
     table.show(columns)
     table.write(columns, directory / "avalanches.csv")
     figure.save(fig, directory / "avalanches")
+
+
+def label_of(name):
+    """0.851-diluted of large0.851-diluted-1995."""
+    return name.removeprefix("large").rsplit("-", 1)[0]
 
 
 def frames_of(directory, name):
@@ -112,7 +123,7 @@ def separation(directory, names, cells=10):
             fine = fraction.local_fraction(x, R, frame.box, tuple(split * count for count in counts))
             local = fraction.coarser(fine, split)
             rows.append((name, tau, len(frame), *fraction.spread(local), *fraction.clustering(fine, split)))
-            if not maps.get(name) or len(frame) > 40 * cells**2:    # the last with enough bubbles to see
+            if len(frame) > 15 * cells**2:    # the last with enough bubbles to see
                 maps[name] = (tau, frame, fine)
     keys = ("run", "tau", "N", "spread", "spread_error", "clustering", "clustering_error")
     columns = {key: np.array([row[n] for row in rows]) for n, key in enumerate(keys)}
@@ -122,8 +133,10 @@ def separation(directory, names, cells=10):
         mine = columns["run"] == name
         for ax, key in ((left, "spread"), (right, "clustering")):
             ax.errorbar(columns["tau"][mine], columns[key][mine], columns[f"{key}_error"][mine], lw=0.8,
-                        fmt="os^Dv<"[number % 6] + "-", color=f"C{number}", label=name.removeprefix("large"))
-            ax.set(xlabel=figure.TAU, xscale="symlog", ylabel=f"{key} of the local gas fraction")
+                        fmt="os^Dv<"[number % 6] + "-", color=f"C{number}", label=label_of(name))
+            ax.set(xlabel=figure.TAU, xscale="symlog")
+    left.set(ylabel="spread of the local gas fraction")
+    right.set(ylabel="clustering")
     right.axhline(1, color="0.7", lw=0.8, zorder=0)
     left.legend()
     figure.save(fig, directory / "separation")
@@ -136,7 +149,7 @@ def draw_maps(directory, maps):
     fig, axes = figure.panels(1, len(maps), width=2.2, height=2.4)
     for ax, (name, (tau, frame, fine)) in zip(axes, maps.items()):
         picture = ax.imshow(fine.T, origin="lower", cmap="RdBu_r", vmin=0.5, vmax=1.2)
-        ax.set(title=rf"{name.removeprefix('large')}, $\tau$ = {tau:.0f}, {len(frame)} left", xticks=[], yticks=[])
+        ax.set(title=rf"{label_of(name)}, $\tau$ = {tau:.0f}, {len(frame)} left", xticks=[], yticks=[])
         ax.minorticks_off()
     fig.colorbar(picture, ax=axes, shrink=0.8, label="local gas fraction")
     figure.save(fig, directory / "separation-maps")
@@ -155,7 +168,7 @@ def draw_energies(directory, maps):
                                   cmap="magma", linewidths=0, clim=(-2, 1.5))
         ax.add_collection(discs)
         ax.set(xlim=(middle[0] - size, middle[0] + size), ylim=(middle[1] - size, middle[1] + size), aspect="equal",
-               title=rf"{name.removeprefix('large')}, $\tau$ = {tau:.0f}", xticks=[], yticks=[])
+               title=rf"{label_of(name)}, $\tau$ = {tau:.0f}", xticks=[], yticks=[])
         ax.minorticks_off()
     fig.colorbar(discs, ax=axes, shrink=0.8, label=r"$\log_{10}$ (energy / median)")
     figure.save(fig, directory / "energies")
@@ -166,9 +179,10 @@ def draw_rates(directory, names):
     fig, axes = figure.panels(1, len(names), width=2.4, height=2.2)
     edges = np.arange(0.2, 2.6, 0.2)
     for ax, name in zip(axes, names):
-        chosen, N = [], np.inf
-        for _, frame in frames_of(directory, name):
-            if len(frame) < 0.25 * N or (len(frame) < 1.0e6 / 20 and len(frame) < N / 1.5):
+        chosen, first, N = [], None, np.inf
+        for _, frame in frames_of(directory, name):    # the start is forgotten, and few are left of those of the last
+            first = first or len(frame)
+            if len(frame) < min(first / LATE, N / 1.5):
                 chosen.append(rates.from_column(frame, 1.0e-3))
                 N = len(frame)
         columns = rates.medians(chosen, edges, within=True)
@@ -177,7 +191,7 @@ def draw_rates(directory, names):
             ax.errorbar(columns["R"][mine], columns["rate"][mine], columns["error"][mine], lw=0.8,
                         fmt="osDv"[quartile - 1] + "-", label=f"quartile {quartile} of energy")
         ax.axhline(0, color="0.7", lw=0.8, zorder=0)
-        ax.set(xlabel=r"$R/\langle R\rangle$", title=name.removeprefix("large"))
+        ax.set(xlabel=r"$R/\langle R\rangle$", title=label_of(name))
     axes[0].set(ylabel=r"median of $\dot R\,\langle R\rangle / K$")
     axes[0].legend()
     figure.save(fig, directory / "rates")
@@ -191,20 +205,21 @@ def questions(directory, names):
         (series,) = tables(directory, [name])
         start, end = late([series])
         fit = growth.fit([series], start, end)
-        label = name.removeprefix("question-")
+        label = name.removeprefix("question-").rsplit("-", 1)[0]
         rows.append({"run": label, "tau_from": start, "tau_to": end, "beta": fit.beta, "beta_error": fit.beta_error})
-        later = series["tau"] > 0.1
-        left.plot(series["tau"][later], series["R"][later], color=f"C{number % 7}", ls="-" if number < 7 else "--",
-                  label=label)
+        later, color = series["tau"] > 0.1, COLORS[number % len(COLORS)]
+        left.plot(series["tau"][later], series["R"][later], color=color, label=label)
         windows = growth.windows_of([series], 0.5, max(start / 10, 0.1), end, False)
         local = growth.local_exponents([series], windows)
-        right.errorbar(local["tau"], local["beta"], local["error"], lw=0.8, color=f"C{number % 7}", fmt=".-")
+        right.errorbar(local["tau"], local["beta"], local["error"], lw=0.8, color=color, fmt=".-")
     columns = {key: np.array([row[key] for row in rows]) for key in rows[0]}
     table.show(columns)
     table.write(columns, directory / "questions.csv")
     left.set(xscale="log", yscale="log", xlabel=figure.TAU, ylabel=figure.R)
+    figure.plain_ticks(left, "y")
     left.legend()
-    right.set(xscale="log", xlabel=figure.TAU, ylabel="exponent in windows of half a decade")
+    right.set(xscale="log", xlabel=figure.TAU, ylabel="exponent in half a decade", ylim=(0, 0.8))
+    figure.plain_ticks(right, "x")
     for value in (1 / 3, 1 / 2):
         right.axhline(value, color="0.7", lw=0.8, zorder=0)
     figure.save(fig, directory / "questions")

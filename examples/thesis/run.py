@@ -72,7 +72,7 @@ def separation(full, seeds):
     """Figures 4.6 to 4.14: does the liquid separate? With the start that is diluted, which the thesis did not try."""
     foams = [(0.851, ""), (0.851, "-diluted"), (0.876, ""), (0.840, ""), (0.865, ""), (0.852, "")]
     size = (1000000, 2000) if full else (5000, 300)
-    return [Run(f"large{phi:.3f}{how}", phi, *size, seeds[0], frequency=0.05, every=5,
+    return [Run(f"large{phi:.3f}{how}-{seeds[0]}", phi, *size, seeds[0], frequency=0.05, every=5,
                 changes=DILUTED if how else ()) for phi, how in foams[:None if full else 3]]
 
 
@@ -92,7 +92,8 @@ def questions(full, seeds):
              "bidisperse": {"changes": sizes("bidisperse ${mean} 2.0 0.5")}, "flow": {"changes": FLOW}}
     size = (100000, 300) if full else (2000, 100)
     return [foam(0.90, full, seeds[0]),
-            *(Run(f"question-{name}", 0.90, *size, seeds[0], frequency=0.05, **case) for name, case in cases.items())]
+            *(Run(f"question-{name}-{seeds[0]}", 0.90, *size, seeds[0], frequency=0.05, **case)
+              for name, case in cases.items())]
 
 
 FIGURES = {"exponents": exponents, "avalanches": avalanches, "separation": separation, "questions": questions}

@@ -34,8 +34,8 @@ class RelaxFoam : public Command {
   double pressure = 0.0;    // pressure to reach; 0: none is given
   double tolerance = 1.0e-2;
   int steps = 50, rounds = 50;
-  double limit = -1.0;      // rest: relative change of energy in a unit of time; below 0: the default
-  std::string minimize;     // arguments of that command; empty: runs
+  double limit = -1.0;    // rest: relative change of energy in a unit of time; below 0: the default
+  std::string minimize;    // arguments of that command; empty: runs
   double etol = 0.0, ftol = 0.0;
 
   class PairFoam *pair = nullptr;

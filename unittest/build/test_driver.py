@@ -122,4 +122,4 @@ def test_command_of_the_package():
     assert usage.returncode == 0 and usage.stdout.startswith("usage: lammps-foam WORD")
     wrong = subprocess.run([command, "lpm"], capture_output=True, text=True)
     assert wrong.returncode != 0
-    assert wrong.stderr.startswith("lammps-foam: 'lpm' is no word of mine; these are: lmp, run, resume, growth, sizes, ")
+    assert wrong.stderr.startswith("lammps-foam: 'lpm' is no word of mine; these are: lmp, run, resume, growth, ")

@@ -16,5 +16,6 @@ def test_every_figure_is_in_the_gallery_with_a_command():
 
 
 def test_every_script_in_the_gallery_exists():
-    for script in re.findall(r"(?:examples|doc/scripts|benchmarks)/\S+\.(?:py|sh)\b", (DOC / "gallery.rst").read_text()):
+    gallery = (DOC / "gallery.rst").read_text()
+    for script in re.findall(r"(?:examples|doc/scripts|benchmarks)/\S+\.(?:py|sh)\b", gallery):
         assert (DOC.parent / script).exists(), script

@@ -68,7 +68,7 @@ def test_grid_of_the_source(lmp, dim, n):
 @pytest.mark.parametrize("dim", [2, 3])
 @pytest.mark.parametrize("start", ["grid", "random"])
 def test_the_same_on_all_ranks(backends, dim, start):
-    what = f"777 5 start {start} sizes lognormal 1.0 0.5 box 3 1 2 phi 0.8".replace("1 2 phi", "1 2 phi" if dim == 3 else "1 phi")
+    what = f"777 5 start {start} sizes lognormal 1.0 0.5 phi 0.8 box {'3 1 2' if dim == 3 else '3 1'}"
     texts = [create(backends(name), what, dim=dim, ranks=ranks).read("start")
              for name, ranks in [("wheel", 1), ("wheel", 2), ("wheel", 4), ("kk1", 1), ("kk1", 2)]]
     for text in texts[1:]:
