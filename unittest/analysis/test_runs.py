@@ -85,3 +85,9 @@ def test_words_start_quickly():
                           check=False)
     assert done.returncode == 0, done.stderr
     assert all(f"\n    {word} " in done.stdout for word in command.ANALYSIS)
+
+
+@pytest.mark.parametrize("given, base", [("growth", "growth"), ("a/b.png", "a/b"), ("x.gif", "x"), ("phi0.85", "phi0.85"),
+                                         ("run.2.csv", "run.2")])
+def test_out_is_a_base(given, base):
+    assert runs.without_end(given) == base

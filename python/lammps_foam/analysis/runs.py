@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import re
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
@@ -99,11 +100,16 @@ def add_range(parser: argparse.ArgumentParser, what: str, default: str) -> None:
     parser.add_argument("--N", nargs=2, type=float, metavar=("FROM", "TO"), help="the same in numbers of bubbles")
 
 
+def without_end(name: str) -> str:
+    """growth of growth.png: all files are named by what comes before."""
+    return re.sub(r"\.(csv|pdf|png|mp4|gif|vtu)$", "", name)
+
+
 def add_runs(parser: argparse.ArgumentParser, what: str, out: str) -> None:
     """Add the arguments that all words have: runs and --out."""
     parser.add_argument("runs", nargs="+", type=Path, metavar="DIR|FILE",
                         help=f"directories of runs, or files: {what}. Several: runs of the same foam with other seeds")
-    parser.add_argument("--out", default=out, metavar="BASE",
+    parser.add_argument("--out", default=out, metavar="BASE", type=without_end,
                         help=f"writes BASE.csv, BASE.pdf, BASE.png (default: {out})")
 
 
