@@ -88,10 +88,10 @@ void lammpsplugin_init(void *lmp, void *handle, void *regfunc)
   plugin.handle = handle;
 
   std::string styles;
-  std::function<void(const char *, const std::string &)> brought = [&](const char *category,
-                                                                       const std::string &name) {
+  const auto told = [&](const char *category, const std::string &name) {
     styles += fmt::format("{}{} {}", styles.empty() ? "" : ", ", category, name);
   };
+  std::function<void(const char *, const std::string &)> brought = told;
   auto pair = [&]<class Style>(const char *name) {
     plugin.style = "pair";
     plugin.name = name;
@@ -139,8 +139,6 @@ void lammpsplugin_init(void *lmp, void *handle, void *regfunc)
   fix.operator()<FixFoamRKC>("foam/rkc", rkc);
   fix.operator()<FixFoamWall>("foam/wall", wall);
   compute.operator()<ComputeFoamBubble>("foam/bubble");
-  command.operator()<CreateFoam>("create_foam", "create_foam: a box, and bubbles in it");
-  command.operator()<RelaxFoam>("relax_foam", "relax_foam: to rest, at a gas fraction or pressure");
 
 #ifdef FOAM_KOKKOS
   styles += ", each also with /kk";
@@ -172,7 +170,11 @@ void lammpsplugin_init(void *lmp, void *handle, void *regfunc)
   fix.operator()<FixFoamRKCKokkos<LMPHostType>>("foam/rkc/kk/host", rkc);
   fix.operator()<FixFoamWallKokkos<LMPHostType>>("foam/wall/kk/host", wall);
   compute.operator()<ComputeFoamBubbleKokkos<LMPHostType>>("foam/bubble/kk/host");
+  brought = told;
 #endif
+
+  command.operator()<CreateFoam>("create_foam", "create_foam: a box, and bubbles in it");
+  command.operator()<RelaxFoam>("relax_foam", "relax_foam: to rest, at a gas fraction or pressure");
 
   // lmp -h was made before any plugin came
 
