@@ -30,7 +30,8 @@ NAMES = ["plain", "3D", "drag between bubbles", "drag between bubbles 3D on 2 ra
          "flow with the box, 2 ranks", "flow in a region", "other forces",
          "viscous", "two runs", "pre no", "restarts written", "integrator again", "exchange again",
          "drag changed", "minimized", "bubbles added", "bubbles deleted", "radii changed",
-         "state stored, 2 ranks", "contact ages", "contact ages, 2 ranks", "foam walls",
+         "state stored, 2 ranks", "contact ages", "contact ages, 2 ranks", "paths",
+         "paths, rkc 3D, 2 ranks", "foam walls",
          "foam walls, rkc 3D, 2 ranks", "foam walls for some", "among others",
          "among others, rkc, neighbor drag, 2 ranks"]
 
@@ -54,7 +55,7 @@ COLUMNS = {
     "given velocities": "drag between bubbles", "residuals of the drag": "drag between bubbles",
     "velocities with drag between bubbles": "drag between bubbles",
     "contact records": "contact ages", "contact records on trial": "contact ages",
-    "ages of contacts": "contact ages", "stress at walls": "foam walls",
+    "ages of contacts": "contact ages", "stress at walls": "foam walls", "lengths of paths": "paths",
 }
 ELSEWHERE = {"residuals of places"}    # in use in single precision alone
 

@@ -230,6 +230,9 @@ SCENES = {
                              f"dump extra all custom 20 extra id c_one\n{EXTRA}"),
     "contact ages": dict(after=AGES),
     "contact ages, 2 ranks": dict(dim=3, ranks=2, after=AGES + "atom_modify sort 10 0.0"),
+    "paths": dict(step="1e-3 path yes", after=f"dump extra all custom 20 extra id f_step\n{EXTRA}"),
+    "paths, rkc 3D, 2 ranks": dict(dim=3, ranks=2, integrator="rkc", step="1e-3 path yes", run="run 40",
+                                   after=f"dump extra all custom 20 extra id f_step\n{EXTRA}"),
     "lists of others": dict(after="compute near all coord/atom cutoff 2.5\n"
                                   "compute clusters all cluster/atom 2.5\n"
                                   f"dump extra all custom 20 extra id c_near\n{EXTRA}"),
