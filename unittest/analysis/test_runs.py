@@ -87,7 +87,7 @@ def test_words_start_quickly():
     assert all(f"\n    {word} " in done.stdout for word in command.ANALYSIS)
 
 
-@pytest.mark.parametrize("given, base", [("growth", "growth"), ("a/b.png", "a/b"), ("x.gif", "x"), ("phi0.85", "phi0.85"),
-                                         ("run.2.csv", "run.2")])
+@pytest.mark.parametrize("given, base", [("growth", "growth"), ("a/b.png", "a/b"), ("x.gif", "x"),
+                                         ("phi0.85", "phi0.85"), ("run.2.csv", "run.2")])
 def test_out_is_a_base(given, base):
     assert runs.without_end(given) == base
