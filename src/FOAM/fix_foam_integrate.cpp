@@ -313,9 +313,8 @@ void FixFoamIntegrate::evaluate(double later)
 
 void FixFoamIntegrate::final_integrate()
 {
-  const bool output_due = out.due(this);
-  for (FoamFollower *one : followers) one->accepted(driver.h_last, output_due);
-  if (output_due) show_path();
+  for (FoamFollower *one : followers) one->accepted(driver.h_last, out.due(this));
+  if (paths && out.due(this)) show_path();
   if (!evaluates_again()) return;
   evaluations++;
   solve_drag();
