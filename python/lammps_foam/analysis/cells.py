@@ -18,13 +18,13 @@ from __future__ import annotations
 
 import argparse
 from dataclasses import dataclass
-import os
 from pathlib import Path
 from typing import Any, cast
 
 import numpy as np
 
 from . import figure, table
+from .files import whole
 from .frames import STATES, add_every, gas, optional, phi_of, selected
 from .pairs import Index, checked, images, into_brick
 from .read import Array, Box, Frame, Unusable
@@ -182,13 +182,8 @@ def voro_text(ids: Array, x: Array, radius: Array) -> str:
 
 def write_text(path: Path, text: str) -> None:
     """Whole or not at all."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    part = path.with_name(f".{path.name}.part")
-    try:
+    with whole(path) as part:
         part.write_text(text)
-        os.replace(part, path)
-    finally:
-        part.unlink(missing_ok=True)
 
 
 # ---------------------------------------------------------------- command line

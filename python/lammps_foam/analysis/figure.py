@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import logging
-import os
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +14,8 @@ from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import LogFormatterSciNotation
+
+from .files import whole
 
 logging.getLogger("fontTools").setLevel(logging.ERROR)    # it warns of dates of fonts
 
@@ -60,16 +61,9 @@ class _Plain(LogFormatterSciNotation):
 def save(fig: Figure, base: str | Path) -> list[Path]:
     """Write base.pdf and base.png, each whole or not at all, close the figure; their paths."""
     base = Path(base)
-    base.parent.mkdir(parents=True, exist_ok=True)
-    written = []
-    for kind in ("pdf", "png"):
-        final = base.with_name(f"{base.name}.{kind}")
-        part = base.with_name(f".{base.name}.part.{kind}")
-        try:
+    written = [base.with_name(f"{base.name}.{kind}") for kind in ("pdf", "png")]
+    for path in written:
+        with whole(path) as part:
             fig.savefig(part)
-            os.replace(part, final)
-        finally:
-            part.unlink(missing_ok=True)
-        written.append(final)
     plt.close(fig)
     return written

@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import table
+from .files import whole
 from .frames import add_every, optional, say
 from .pairs import checked, images, into_brick
 from .read import Array, Frame, Unusable
@@ -291,9 +292,5 @@ def at_equal_steps(taus: Array, pictures: int) -> dict[int, int]:
 def _save_png(picture: Picture, path: Path) -> None:
     from matplotlib import image
 
-    part = path.with_name(f".{path.stem}.part.png")
-    try:
+    with whole(path) as part:
         image.imsave(part, picture)
-        os.replace(part, path)
-    finally:
-        part.unlink(missing_ok=True)

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-import os
 from pathlib import Path
 from typing import Any
+
+from .files import whole
 
 Table = Mapping[str, Any]    # columns of equal length by name: lists, arrays
 
@@ -19,14 +20,9 @@ def with_end(base: str | Path, end: str) -> Path:
 def write(table: Table, path: str | Path) -> Path:
     """Write a .csv with a line of names, whole or not at all. nan is written as nothing."""
     path = Path(path)
-    path.parent.mkdir(parents=True, exist_ok=True)
-    part = path.with_name(f".{path.name}.part")
     lines = [",".join(table)] + [",".join(_exact(value) for value in row) for row in zip(*table.values())]
-    try:
+    with whole(path) as part:
         part.write_text("\n".join(lines) + "\n")
-        os.replace(part, path)
-    finally:
-        part.unlink(missing_ok=True)
     return path
 
 
