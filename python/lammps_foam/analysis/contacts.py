@@ -209,7 +209,8 @@ def _draw(times: dict[str, Array], shares: dict[str, Array], sizes: dict[str, Ar
                       (right, {"rattlers": "rattlers", "loose": "no contact"})):
         for (name, label), marker in zip(names.items(), "os"):
             ax.errorbar(x, times[name], times[f"{name}_error"], fmt=marker, label=label, lw=0.8)
-        ax.legend()
+        ax.margins(y=0.25)    # room for the legend
+        ax.legend(ncols=2, loc="upper center")
     top.set(ylabel=r"mean contacts $z$")
     right.set(ylabel="share of bubbles")
     low.bar(shares["z"], shares["share"], yerr=shares["error"], width=0.8, color="C0", ecolor="k", error_kw={"lw": 0.8})

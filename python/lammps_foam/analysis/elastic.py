@@ -27,6 +27,7 @@ from __future__ import annotations
 
 import argparse
 from dataclasses import dataclass
+import sys
 
 import numpy as np
 from scipy import sparse
@@ -302,6 +303,7 @@ def _row(args: argparse.Namespace, run: int, frame: Frame, tau: float) -> list[f
                        "give --rin")
     spring = args.sigma0 * rin
     if args.relax:
+        print(f"step {frame.step}: bringing {n} bubbles to rest", file=sys.stderr, flush=True)
         x = relaxed(x, radius, box, spring)
     pairs = close_pairs(x, radius, box)
     if np.any(pairs.distance == 0):

@@ -243,23 +243,21 @@ def _distribution(ends: list[tuple[Array, int]]) -> dict[str, Array]:
 
 
 def _draw(columns: dict[str, Array], distribution: dict[str, Array], out: str) -> None:
-    fig, axes = figure.panels(1, 2 if distribution else 1)
     labels = {"msd": r"$\langle \Delta r^2\rangle\,/\,\langle R_\mathrm{in}\rangle^2$",
               "path": r"mean path $/\,\langle R_\mathrm{in}\rangle$"}
-    for name, mark in (("msd", "o-"), ("path", "s-")):
-        if name in columns:
-            shown = (columns["tau"] > 0) & (columns[name] > 0)
-            error = columns.get(f"{name}_error", np.zeros(len(shown)))
-            axes[0].errorbar(columns["tau"][shown], columns[name][shown], error[shown], fmt=mark, lw=0.8, ms=2,
-                             label=labels[name])
-    axes[0].set(xscale="log", yscale="log", xlabel=figure.TAU)
-    axes[0].legend()
+    names = [name for name in labels if name in columns]
+    fig, axes = figure.panels(1, len(names) + bool(distribution))
+    for ax, name in zip(axes, names):
+        shown = (columns["tau"] > 0) & (columns[name] > 0)
+        error = columns.get(f"{name}_error", np.zeros(len(shown)))
+        ax.errorbar(columns["tau"][shown], columns[name][shown], error[shown], fmt="o-", lw=0.8, ms=2)
+        ax.set(xscale="log", yscale="log", xlabel=figure.TAU, ylabel=labels[name])
     if distribution:
-        some = distribution["P"] > 0
-        axes[1].errorbar(distribution["d"][some], distribution["P"][some], distribution["error"][some], fmt="o",
-                         color="k", lw=0.7, label="at the end")
-        axes[1].plot(distribution["d"], distribution["normal"], "--", color="C1", label="normal")
-        axes[1].set(yscale="log", xlabel=r"$\Delta x\,/\,\sigma$", ylabel="probability density",
-                    ylim=(min(distribution["P"][some]) / 3, 2))
-        axes[1].legend(loc="upper right")
+        some, last = distribution["P"] > 0, axes[-1]
+        last.errorbar(distribution["d"][some], distribution["P"][some], distribution["error"][some], fmt="o",
+                      color="k", lw=0.7, label="at the end")
+        last.plot(distribution["d"], distribution["normal"], "--", color="C1", label="normal")
+        last.set(yscale="log", xlabel=r"$\Delta x\,/\,\sigma$", ylabel="probability density",
+                 ylim=(min(distribution["P"][some]) / 3, 2))
+        last.legend(loc="upper right")
     figure.save(fig, out)

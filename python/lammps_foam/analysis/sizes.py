@@ -1,9 +1,9 @@
 """The distribution of sizes in the scaling state, its moments, and the closed forms of mean-field theories.
 
 All bubbles of a frame count alike, all frames alike. Frames that lie close together show the same bubbles: of each run
-only frames are taken between which N falls by a factor (--apart). Errors are standard errors: with several runs (seeds)
-from the scatter of the runs' averages, with one run from the scatter of its frames. The latter is too small where
-frames still remember each other. A single frame has the counting error of its bubbles.
+only frames are taken between which N falls by a factor (--apart). Errors are standard errors. With several runs (seeds)
+they come from the scatter of the runs' averages. With one run they come from the number of its bubbles, and from how
+many of them its frames share: see `error_of_one_run`.
 
 The theories. In both each bubble meets the average of all; R_c is the radius that neither grows nor shrinks:
 
@@ -21,7 +21,7 @@ screens (Marqusee, J. Chem. Phys. 81, 976 (1984)), which has no closed form. How
 from __future__ import annotations
 
 import argparse
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -146,16 +146,25 @@ class Average:
     how: str
 
 
-def average(runs: list[list[Array]], single: Array) -> Average:
-    """Over `runs`, each a list of the frames' values. `single`: the error if there is a single frame."""
+def average(runs: list[list[Array]], errors: list[Array], bubbles: Sequence[int]) -> Average:
+    """Over `runs`, each a list of the frames' values. `errors`, `bubbles`: of the frames, if there is one run."""
     means = np.array([np.mean(frames, axis=0) for frames in runs])
     if len(runs) > 1:
         return Average(means.mean(axis=0), means.std(axis=0, ddof=1) / np.sqrt(len(runs)),
                        f"scatter of {len(runs)} runs")
-    frames = np.array(runs[0])
-    if len(frames) > 1:
-        return Average(means[0], frames.std(axis=0, ddof=1) / np.sqrt(len(frames)), f"scatter of {len(frames)} frames")
-    return Average(means[0], single, "bootstrap of the bubbles of one frame")
+    return Average(means[0], error_of_one_run(np.array(errors), np.asarray(bubbles)),
+                   f"bootstrap of the bubbles of {len(bubbles)} frame(s) of one run")
+
+
+def error_of_one_run(errors: Array, bubbles: Array) -> Array:
+    """Standard error of the mean over frames of one run, from the `errors` (frames, ...) of each frame.
+
+    A frame with fewer bubbles has those of a frame before it that are left. If these keep their R/<R>, then means over
+    n and m < n of them correlate by sqrt(m / n). Bubbles do change their R/<R>: so this is an upper estimate.
+    """
+    shared = np.sqrt(np.minimum.outer(bubbles, bubbles) / np.maximum.outer(bubbles, bubbles))
+    variance = np.einsum("i...,ij,j...->...", errors, shared, errors)
+    return np.asarray(np.sqrt(variance) / len(bubbles))
 
 
 def bootstrap_error(R: Array, dimension: int, edges: list[Array], samples: int = 200) -> list[Array]:
@@ -194,10 +203,10 @@ def main(args: argparse.Namespace) -> int:
         radii.append(R)
         dimension = dimension_here
     edges = [np.linspace(0, max(3, top), args.bins + 1) for top in _largest(radii, dimension)]
-    alone = len(radii) == len(radii[0]) == 1
-    single = bootstrap_error(radii[0][0], dimension, edges) if alone else [np.zeros(1)] * 3
     measured = [[measure(R, dimension, edges) for R in run] for run in radii]
-    parts = [average([[frame[part] for frame in run] for run in measured], single[part]) for part in range(3)]
+    errors = [bootstrap_error(R, dimension, edges) for R in radii[0]] if len(radii) == 1 else []
+    parts = [average([[frame[part] for frame in run] for run in measured],
+                     [error[part] for error in errors], [len(R) for R in radii[0]]) for part in range(3)]
     _report(args, radii, dimension, edges, parts)
     return 0
 
