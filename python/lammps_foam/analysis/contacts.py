@@ -212,7 +212,7 @@ def _draw(times: dict[str, Array], shares: dict[str, Array], sizes: dict[str, Ar
         ax.margins(y=0.25)    # room for the legend
         ax.legend(ncols=2, loc="upper center")
     top.set(ylabel=r"mean contacts $z$")
-    right.set(ylabel="share of bubbles")
+    right.set(ylabel="share of bubbles", ylim=(0, None))
     low.bar(shares["z"], shares["share"], yerr=shares["error"], width=0.8, color="C0", ecolor="k", error_kw={"lw": 0.8})
     low.set(xlabel=r"contacts $z$", ylabel="share of bubbles")
     enough = sizes["bubbles"] >= 5

@@ -74,4 +74,5 @@ def time_axis(axes: list[Axes], tau: Array, step: Array) -> Array:
         ax.set_xlabel(figure.TAU if known else "step")
         if len(positive) > 1 and positive.max() > 20 * positive.min():
             ax.set_xscale("log")
+            figure.plain_ticks(ax, "x")
     return x
