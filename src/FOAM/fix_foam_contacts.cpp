@@ -29,7 +29,7 @@ using namespace FixConst;
 /* ---------------------------------------------------------------------- */
 
 FixFoamContacts::FixFoamContacts(LAMMPS *lmp, int narg, char **arg)
-    : Fix(lmp, narg, arg), reduce(world)
+    : FixFoamRecords(lmp, narg, arg, Foam::AGE_VALUES), reduce(world)
 {
   using Value = FoamInput::Value;
   FoamInput input(error, "Fix foam/contacts", narg - 3, arg + 3);
@@ -46,23 +46,7 @@ FixFoamContacts::FixFoamContacts(LAMMPS *lmp, int narg, char **arg)
   peratom_freq = 1;
 
   restart_global = 1;
-  restart_peratom = 1;
-  create_attribute = 1;
-  maxexchange = exchange_foreseen = history.most();
-
-  grow_arrays(atom->nmax);
-  for (int i = 0; i < atom->nlocal; i++) set_arrays(i);
-  atom->add_callback(Atom::GROW);
-  atom->add_callback(Atom::RESTART);
-  called_back = true;
-}
-
-FixFoamContacts::~FixFoamContacts()
-{
-  memory->destroy(array_atom);
-  if (!called_back) return;
-  atom->delete_callback(id, Atom::GROW);
-  atom->delete_callback(id, Atom::RESTART);
+  keep_records();
 }
 
 int FixFoamContacts::setmask()
@@ -111,8 +95,7 @@ Foam::ContactTotals FixFoamContacts::try_out(double later)
     const Foam::ContactTotals found = follow(later);
     const int most = static_cast<int>(found.most);
     if (most <= history.slots()) return found;
-    history.make_room(most);
-    maxexchange = history.most();    // fix foam/coarsen may take out the dead before pre_exchange()
+    make_room(most);
   }
 }
 
@@ -188,29 +171,6 @@ bool FixFoamContacts::ids_have_changed()
   return any;
 }
 
-void FixFoamContacts::setup_pre_exchange()
-{
-  pre_exchange();
-}
-
-// LAMMPS' buffers have room for an exchanged bubble as it was at Comm::init(), and 1024 numbers to spare.
-// (With maxexchange_dynamic those of comm_style tiled would grow at each exchange.)
-
-void FixFoamContacts::pre_exchange()
-{
-  history.agree(world);
-  maxexchange = history.most();
-  if (maxexchange > exchange_foreseen + 512) {
-    exchange_foreseen = maxexchange;
-    comm->init();
-  }
-}
-
-void FixFoamContacts::min_pre_exchange()
-{
-  pre_exchange();
-}
-
 void FixFoamContacts::post_run()
 {
   pre_exchange();    // for commands that exchange bubbles
@@ -272,66 +232,6 @@ double FixFoamContacts::compute_vector(int n)
   }
 }
 
-/* ----------------------------------------------------------------------
-   records travel with the bubbles
-------------------------------------------------------------------------- */
-
-void FixFoamContacts::grow_arrays(int nmax)
-{
-  history.committed.use(nmax);
-  memory->grow(array_atom, MAX(1, nmax), Foam::SHOWN, "foam/contacts:array");
-}
-
-void FixFoamContacts::copy_arrays(int i, int j, int)
-{
-  history.committed.copy(i, j);
-  for (int k = 0; k < Foam::SHOWN; k++) array_atom[j][k] = array_atom[i][k];
-}
-
-void FixFoamContacts::set_arrays(int i)    // a new bubble
-{
-  history.committed.clear(i);
-  for (int k = 0; k < Foam::SHOWN; k++) array_atom[i][k] = 0.0;
-}
-
-int FixFoamContacts::pack_exchange(int i, double *buf)
-{
-  return history.pack(i, buf);
-}
-
-int FixFoamContacts::unpack_exchange(int i, double *buf)
-{
-  const int n = history.unpack(i, buf);
-  maxexchange = history.most();
-  look_at(i);
-  return n;
-}
-
-int FixFoamContacts::pack_restart(int i, double *buf)
-{
-  buf[0] = size_restart(i);
-  return 1 + history.pack(i, buf + 1);
-}
-
-void FixFoamContacts::unpack_restart(int i, int nth)
-{
-  const double *extra = atom->extra[i];
-  for (int m = 0; m < nth; m++) extra += static_cast<int>(*extra);
-  history.unpack(i, extra + 1);
-  maxexchange = history.most();
-  look_at(i);
-}
-
-int FixFoamContacts::size_restart(int i)
-{
-  return 1 + history.size(i);
-}
-
-int FixFoamContacts::maxsize_restart()
-{
-  return 1 + history.most();
-}
-
 void FixFoamContacts::write_restart(FILE *fp)
 {
   const double values[] = {double(started), at_first, of_all_ranks().formed};
@@ -347,9 +247,4 @@ void FixFoamContacts::restart(char *buf)
   started = values[0] != 0.0;
   at_first = values[1];
   formed = comm->me == 0 ? values[2] : 0.0;
-}
-
-double FixFoamContacts::memory_usage()
-{
-  return bytes(all_columns) + sizeof(double) * double(atom->nmax) * size_peratom_cols;
 }

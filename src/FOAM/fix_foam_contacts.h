@@ -16,9 +16,8 @@ FixStyle(foam/contacts,FixFoamContacts);
 #ifndef LMP_FIX_FOAM_CONTACTS_H
 #define LMP_FIX_FOAM_CONTACTS_H
 
-#include "fix.h"
+#include "fix_foam_records.h"
 #include "foam_ages.h"
-#include "foam_history.h"
 #include "foam_reduce.h"
 #include "pair_foam.h"
 
@@ -29,43 +28,26 @@ namespace LAMMPS_NS {
 
 // How long each contact has lasted, from one accepted step to the next
 
-class FixFoamContacts : public Fix, public FoamFollower {
+class FixFoamContacts : public FixFoamRecords, public FoamFollower {
  public:
   FixFoamContacts(class LAMMPS *, int, char **);
-  ~FixFoamContacts() override;
   int setmask() override;
   void init() override;
   void init_list(int, class NeighList *) override;
-  void setup_pre_exchange() override;
-  void pre_exchange() override;
-  void min_pre_exchange() override;
   void setup(int) override;
   void attempted(double) override;
   void accepted(double, bool) override;
   void post_run() override;
   double compute_vector(int) override;
 
-  void grow_arrays(int) override;
-  void copy_arrays(int, int, int) override;
-  void set_arrays(int) override;
-  int pack_exchange(int, double *) override;
-  int unpack_exchange(int, double *) override;
-  int pack_restart(int, double *) override;
-  void unpack_restart(int, int) override;
-  int size_restart(int) override;
-  int maxsize_restart() override;
   void write_restart(FILE *) override;
   void restart(char *) override;
-  double memory_usage() override;
 
  protected:
   PairFoam *pair = nullptr;
   FoamReduce<Foam::ContactTotals> reduce;
 
-  FoamColumnList all_columns;
-  FoamHistory history{all_columns, Foam::AGE_VALUES};
   FoamColumns shown{all_columns, "ages of contacts", Foam::SHOWN, FoamHistory::STAYS};
-  FoamColumnList travelling() const { return chosen(all_columns, FoamHistory::TRAVELS); }
 
   // the contacts of this state, on trial: those committed are so much older
 
@@ -81,8 +63,6 @@ class FixFoamContacts : public Fix, public FoamFollower {
   class NeighList *list = nullptr;    // of its own, or that of the pair style
   bool list_of_pair = true;
   bool tries = false;    // in attempts, too
-  int exchange_foreseen = 0;
-  bool called_back = false;    // see FixFoamIntegrate
   bool is_shown = false;       // the present state
 
   bool started = false;                     // kept in restarts, with:
@@ -94,7 +74,7 @@ class FixFoamContacts : public Fix, public FoamFollower {
   Foam::ContactTotals try_out(double later);
   void take(const Foam::ContactTotals &);
   void show();
-  void look_at(int);
+  void look_at(int) override;
   bool ids_have_changed();
   const Foam::ContactTotals &of_all_ranks();
 };

@@ -10,6 +10,7 @@
 #ifndef LMP_FOAM_LAW_SURFACE_H
 #define LMP_FOAM_LAW_SURFACE_H
 
+#include "bubble_physics.h"
 #include "foam_law.h"
 
 namespace Foam {
@@ -18,11 +19,7 @@ namespace Foam {
 // (2017), eq. 9], with x = Delta / R and the surface tension SIGMA:
 //   F = SIGMA R (18.5 x^2 + 2 x),  U = SIGMA R^2 (18.5 x^3 / 3 + x^2)
 // Two bubbles are two elements in series, as two of Durian's springs are: the same force deforms both, Delta_i + Delta_j
-// = overlap.  A wall (R_j = 0) does not deform.  With f = F / SIGMA,
-//   Delta(f; R) = 2 f / (2 + s),  s = sqrt(4 + 74 f / R) = df / dDelta,
-// so that f of the overlap is the root of a concave function.  Newton's method finds it from the sum of the limits for small
-// and for large overlaps: to 1e-14 in four steps for radii up to 100 to 1, in fewer for like ones: see
-// unittest/physics/test_laws.cpp.
+// = overlap.  A wall (R_j = 0) does not deform.
 //
 // sigma0 of the pair's types does not enter, but for 0, which switches the pair off.
 
@@ -47,30 +44,13 @@ struct SurfaceLaw : ContactLaw {
   }
 
  private:
-  FOAM_FUNCTION static double slope(double f, double R) { return std::sqrt(4.0 + 74.0 * f / R); }
-  FOAM_FUNCTION static double deformed(double overlap, double R)    // f of Delta = overlap
-  {
-    return overlap * (18.5 * overlap / R + 2.0);
-  }
   FOAM_FUNCTION static double reduced_force(double overlap, double Ri, double Rj)
   {
-    if (!(Rj > 0.0)) return deformed(overlap, Ri);
-    if (Ri == Rj) return deformed(0.5 * overlap, Ri);
-    const double roots = std::sqrt(Ri) + std::sqrt(Rj);
-    double f = overlap * (18.5 * overlap / (roots * roots) + 1.0);
-    for (int step = 0; step < 4; step++) {
-      const double si = slope(f, Ri), sj = slope(f, Rj);
-      const double sum = 2.0 * f / (2.0 + si) + 2.0 * f / (2.0 + sj);
-      const double change = (overlap - sum) / (1.0 / si + 1.0 / sj);
-      f += change;
-      if (std::fabs(change) < 1.0e-8 * f) break;    // its square is left
-    }
-    return f;
+    return Rj > 0.0 ? Bubble::in_series(overlap, Ri, Rj) : Bubble::elastic_force(1.0, overlap, Ri);
   }
   FOAM_FUNCTION static double energy_of_one(double f, double R)
   {
-    const double x = 2.0 * f / (2.0 + slope(f, R)) / R;
-    return R * R * x * x * (18.5 / 3.0 * x + 1.0);
+    return Bubble::elastic_energy(1.0, Bubble::deformation(f, R), R);
   }
 };
 

@@ -7,12 +7,17 @@
 
 #include "compute_foam_bubble.h"
 #include "create_foam.h"
+#include "fix_bubble_films.h"
+#include "fix_bubble_nve.h"
+#include "fix_bubble_rise.h"
 #include "fix_foam_abm.h"
 #include "fix_foam_coarsen.h"
 #include "fix_foam_contacts.h"
 #include "fix_foam_flow.h"
 #include "fix_foam_rkc.h"
 #include "fix_foam_wall.h"
+#include "fix_wall_bubble.h"
+#include "pair_bubble_collision.h"
 #include "pair_durian_foam.h"
 #include "relax_foam.h"
 
@@ -92,10 +97,10 @@ void lammpsplugin_init(void *lmp, void *handle, void *regfunc)
     styles += fmt::format("{}{} {}", styles.empty() ? "" : ", ", category, name);
   };
   std::function<void(const char *, const std::string &)> brought = told;
-  auto pair = [&]<class Style>(const char *name) {
+  auto pair = [&]<class Style>(const char *name, const char *info) {
     plugin.style = "pair";
     plugin.name = name;
-    plugin.info = "pair style durian/foam: bubbles that touch, Durian's bubble model";
+    plugin.info = info;
     plugin.creator.v1 = make_pair_style<Style>;
     announce(&plugin, lmp);
     brought("pair_style", name);
@@ -124,6 +129,7 @@ void lammpsplugin_init(void *lmp, void *handle, void *regfunc)
     announce(&plugin, lmp);
     brought("command", name);
   };
+  const char *const durian = "pair style durian/foam: bubbles that touch, Durian's bubble model";
   const char *const coarsen = "fix foam/coarsen: gas exchange between bubbles";
   const char *const ages = "fix foam/contacts: how long bubbles have been in contact";
   const char *const flow = "fix foam/flow: a flow of the liquid between the bubbles";
@@ -131,7 +137,7 @@ void lammpsplugin_init(void *lmp, void *handle, void *regfunc)
   const char *const rkc = "fix foam/rkc: adaptive stabilised Runge-Kutta-Chebyshev steps";
   const char *const wall = "fix foam/wall: walls at faces of the box";
 
-  pair.operator()<PairDurianFoam>("durian/foam");
+  pair.operator()<PairDurianFoam>("durian/foam", durian);
   fix.operator()<FixFoamCoarsen>("foam/coarsen", coarsen);
   fix.operator()<FixFoamContacts>("foam/contacts", ages);
   fix.operator()<FixFoamFlow>("foam/flow", flow);
@@ -144,7 +150,7 @@ void lammpsplugin_init(void *lmp, void *handle, void *regfunc)
   styles += ", each also with /kk";
   brought = [](const char *, const std::string &) {
   };
-  pair.operator()<PairDurianFoamKokkos<LMPDeviceType>>("durian/foam/kk");
+  pair.operator()<PairDurianFoamKokkos<LMPDeviceType>>("durian/foam/kk", durian);
   fix.operator()<FixFoamCoarsenKokkos<LMPDeviceType>>("foam/coarsen/kk", coarsen);
   fix.operator()<FixFoamContactsKokkos<LMPDeviceType>>("foam/contacts/kk", ages);
   fix.operator()<FixFoamFlowKokkos<LMPDeviceType>>("foam/flow/kk", flow);
@@ -153,7 +159,7 @@ void lammpsplugin_init(void *lmp, void *handle, void *regfunc)
   fix.operator()<FixFoamWallKokkos<LMPDeviceType>>("foam/wall/kk", wall);
   compute.operator()<ComputeFoamBubbleKokkos<LMPDeviceType>>("foam/bubble/kk");
 
-  pair.operator()<PairDurianFoamKokkos<LMPDeviceType>>("durian/foam/kk/device");
+  pair.operator()<PairDurianFoamKokkos<LMPDeviceType>>("durian/foam/kk/device", durian);
   fix.operator()<FixFoamCoarsenKokkos<LMPDeviceType>>("foam/coarsen/kk/device", coarsen);
   fix.operator()<FixFoamContactsKokkos<LMPDeviceType>>("foam/contacts/kk/device", ages);
   fix.operator()<FixFoamFlowKokkos<LMPDeviceType>>("foam/flow/kk/device", flow);
@@ -162,7 +168,7 @@ void lammpsplugin_init(void *lmp, void *handle, void *regfunc)
   fix.operator()<FixFoamWallKokkos<LMPDeviceType>>("foam/wall/kk/device", wall);
   compute.operator()<ComputeFoamBubbleKokkos<LMPDeviceType>>("foam/bubble/kk/device");
 
-  pair.operator()<PairDurianFoamKokkos<LMPHostType>>("durian/foam/kk/host");
+  pair.operator()<PairDurianFoamKokkos<LMPHostType>>("durian/foam/kk/host", durian);
   fix.operator()<FixFoamCoarsenKokkos<LMPHostType>>("foam/coarsen/kk/host", coarsen);
   fix.operator()<FixFoamContactsKokkos<LMPHostType>>("foam/contacts/kk/host", ages);
   fix.operator()<FixFoamFlowKokkos<LMPHostType>>("foam/flow/kk/host", flow);
@@ -172,6 +178,17 @@ void lammpsplugin_init(void *lmp, void *handle, void *regfunc)
   compute.operator()<ComputeFoamBubbleKokkos<LMPHostType>>("foam/bubble/kk/host");
   brought = told;
 #endif
+
+  pair.operator()<PairBubbleCollision>(
+      "bubble/collision", "pair style bubble/collision: bubbles with inertia that collide");
+  fix.operator()<FixBubbleRise>("bubble/rise", "fix bubble/rise: buoyancy, drag and added mass");
+  fix.operator()<FixWallBubble>("wall/bubble", "fix wall/bubble: walls for bubbles with inertia");
+  fix.operator()<FixBubbleNVE>("bubble/nve", "fix bubble/nve: motion of bubbles with inertia");
+  brought = [](const char *, const std::string &) {
+  };
+  fix.operator()<FixBubbleFilms>("bubble/films",
+                                 "fix bubble/films: made by pair style bubble/collision");
+  brought = told;
 
   command.operator()<CreateFoam>("create_foam", "create_foam: a box, and bubbles in it");
   command.operator()<RelaxFoam>("relax_foam", "relax_foam: to rest, at a gas fraction or pressure");

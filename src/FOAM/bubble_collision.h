@@ -1,0 +1,384 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   This software is distributed under the GNU General Public License.
+   Wet-foam package: see the README file of the package.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_BUBBLE_COLLISION_H
+#define LMP_BUBBLE_COLLISION_H
+
+#include "bubble_film.h"
+#include "foam_bubbles.h"
+#include "foam_history.h"
+
+#include <cmath>
+
+// What happens where two bubbles, or a bubble and a wall, are close: the model as the user has chosen it, and the loops
+// over pairs and walls.  Formulae: bubble_physics.h.
+
+namespace Bubble {
+
+using Foam::ContactRecords;
+
+enum class Elastic { NONE, SPRING, QUADRATIC };
+enum class Viscous { NONE, PUBLISHED, DERIVED };
+enum class Stop {
+  CONTACT,
+  CURRENT,
+  GIVEN
+};    // h0: kept by each contact, of the present speed, a number
+
+struct Collision {
+  double sigma = 0.0, mu = 0.0;
+  Elastic elastic = Elastic::QUADRATIC;
+  Viscous viscous = Viscous::PUBLISHED;
+  FilmTable integral{};    // of the film; none: the fit
+  Stop stop = Stop::CONTACT;
+  double h0 = 0.0, hmin = 0.0;
+  bool film = true;           // the elastic force begins at h0, else where surfaces meet
+  bool lubrication = true;    // where the gap is wider than h0
+  double reach = 1.0;         // of it, in R
+  bool slides = false;        // force along the surface
+
+  FOAM_FUNCTION double range(const Gap &gap) const    // no force beyond this gap
+  {
+    const double r = reach * gap.mean;
+    return r > h0 ? r : h0;
+  }
+};
+
+// Forces along the normal are > 0 where they push apart
+
+struct Meeting {
+  bool closed = false;                       // the gap is narrower than h0
+  double h0 = 0.0, Delta = 0.0, Ra = 0.0;    // Delta, R_a: of bubble i
+  double elastic = 0.0, energy = 0.0;
+  double viscous = 0.0, lubrication = 0.0, sliding = 0.0;    // coefficients of speeds
+};
+
+// h_kept: h0 of this contact, if it has one
+
+FOAM_FUNCTION double thickness(const Collision &c, const Gap &gap, double u, double h_kept)
+{
+  if (c.stop == Stop::GIVEN) return c.h0;
+  if (c.stop == Stop::CONTACT && h_kept > 0.0) return h_kept;
+  const double h = film_thickness(c.sigma, c.mu, c.stop == Stop::CURRENT ? std::fabs(u) : u, gap);
+  return h > c.hmin ? h : c.hmin;
+}
+
+FOAM_FUNCTION void deform(const Collision &c, const Gap &gap, double overlap, Meeting &m)
+{
+  m.Delta = gap.wall ? overlap : 0.5 * overlap;
+  if (c.elastic == Elastic::NONE) return;
+  if (c.elastic == Elastic::SPRING) {
+    m.elastic = spring_force(c.sigma, m.Delta);
+    m.energy = (gap.wall ? 1.0 : 2.0) * spring_energy(c.sigma, m.Delta);
+    return;
+  }
+  const double force =
+      gap.wall ? elastic_force(1.0, overlap, gap.Ri) : in_series(overlap, gap.Ri, gap.Rj);
+  m.elastic = c.sigma * force;
+  m.energy = elastic_energy(c.sigma, m.Delta, gap.Ri);
+  if (gap.wall) return;
+  m.Delta = deformation(force, gap.Ri);
+  m.energy = elastic_energy(c.sigma, m.Delta, gap.Ri) +
+             elastic_energy(c.sigma, deformation(force, gap.Rj), gap.Rj);
+}
+
+FOAM_FUNCTION Meeting meet(const Collision &c, const Gap &gap, double width, double u,
+                           double h_kept)
+{
+  Meeting m;
+  m.h0 = thickness(c, gap, u, h_kept);
+  m.closed = width < m.h0;
+  const double overlap = m.closed ? (c.film ? m.h0 : 0.0) - width : 0.0;
+  if (overlap > 0.0) deform(c, gap, overlap, m);
+  if (m.closed && c.viscous != Viscous::NONE) {
+    const double x = overlap > 0.0 ? (gap.wall ? 1.0 : 0.5) * overlap / gap.mean : 0.0;
+    const double h = m.h0 / gap.mean, a = film_radius(x);
+    m.viscous = film_viscous(c.mu, film_growth(x), c.viscous == Viscous::DERIVED,
+                             c.integral.first ? c.integral(h, a) : film_fit(h, a), gap);
+    m.Ra = gap.Ri * film_radius(m.Delta / gap.Ri);
+  } else if (!m.closed && c.lubrication && width < c.reach * gap.mean) {
+    m.lubrication = lubrication(c.mu, width, gap);
+  }
+  if (c.slides) m.sliding = sliding(c.mu, width > c.hmin ? width : c.hmin, gap.mean);
+  return m;
+}
+
+// ---------------------------------------------------------------------- what is known of all of them
+
+struct CollisionTotals {
+  Foam::FoamSum energy, viscous, lubrication, sliding;    // powers: work done on the bubbles
+  Foam::FoamSum closed;                                   // contacts
+  Foam::FoamSum xx, yy, zz, xy, xz, yz;                   // sums of r f
+  Foam::FoamMax most;                                     // contacts of a bubble
+  Foam::FoamMax closing;    // 1 / time in which a gap closes, as it does now
+  FOAM_FUNCTION void join(const CollisionTotals &other)
+  {
+    energy.join(other.energy);
+    viscous.join(other.viscous);
+    lubrication.join(other.lubrication);
+    sliding.join(other.sliding);
+    closed.join(other.closed);
+    xx.join(other.xx);
+    yy.join(other.yy);
+    zz.join(other.zz);
+    xy.join(other.xy);
+    xz.join(other.xz);
+    yz.join(other.yz);
+    most.join(other.most);
+    closing.join(other.closing);
+  }
+};
+
+// Columns that users look at: sums of forces by each term, and the closest contact
+
+enum Look {
+  ELASTIC,
+  VISCOUS = ELASTIC + 3,
+  LUBRICATION = VISCOUS + 3,
+  SLIDING = LUBRICATION + 3,
+  CONTACTS = SLIDING + 3,
+  DELTA,
+  RA,
+  H0,
+  ENERGY,
+  LOOKS
+};
+
+struct Looks {
+  double *column[LOOKS]{};
+  FOAM_FUNCTION void clear(int i) const
+  {
+    for (int k = 0; k < LOOKS; k++) column[k][i] = 0.0;
+  }
+};
+
+// One bubble and one partner: forces, power, and what is to be looked at.  half: the partner has the other half.
+
+template <class B> struct Encounter {
+  B b;
+  Collision model;
+  Looks looks;
+  bool looked;
+
+  // n: unit vector from the partner to bubble i; u: velocity of i relative to the partner
+
+  FOAM_FUNCTION Meeting operator()(int i, const Gap &gap, double width, const double *n,
+                                   const double *u, double h_kept, double *force,
+                                   CollisionTotals &all) const
+  {
+    const double un = u[0] * n[0] + u[1] * n[1] + u[2] * n[2], half = gap.wall ? 1.0 : 0.5;
+    const Meeting m = meet(model, gap, width, -un, h_kept);
+    const double push = m.elastic - (m.viscous + m.lubrication) * un;
+    double slip = 0.0;
+    for (int k = 0; k < 3; k++) {
+      const double ut = u[k] - un * n[k];
+      slip += ut * ut;
+      force[k] = push * n[k] - m.sliding * ut;
+      if (looked) {
+        looks.column[ELASTIC + k][i] += m.elastic * n[k];
+        looks.column[VISCOUS + k][i] -= m.viscous * un * n[k];
+        looks.column[LUBRICATION + k][i] -= m.lubrication * un * n[k];
+        looks.column[SLIDING + k][i] -= m.sliding * ut;
+      }
+    }
+    all.energy += half * m.energy;
+    all.viscous += -half * m.viscous * un * un;
+    all.lubrication += -half * m.lubrication * un * un;
+    all.sliding += -half * m.sliding * slip;
+    if (un < 0.0) all.closing.raise(-un / (width > m.h0 ? width : m.h0));
+    if (m.closed) {
+      all.closed += half;
+      if (looked) look(i, m, half);
+    }
+    return m;
+  }
+
+  FOAM_FUNCTION void look(int i, const Meeting &m, double half) const
+  {
+    looks.column[CONTACTS][i] += 1.0;
+    looks.column[ENERGY][i] += half * m.energy;
+    if (looks.column[H0][i] > 0.0 && !(m.Delta > looks.column[DELTA][i])) return;
+    looks.column[DELTA][i] = m.Delta;
+    looks.column[RA][i] = m.Ra;
+    looks.column[H0][i] = m.h0;
+  }
+};
+
+// h0 of a contact in its record, from one evaluation to the next.  An evaluation of the same state finds the same.  If
+// a bubble has more contacts than its record has room for, it takes no forces: those bubbles are done again.
+
+struct Films {
+  ContactRecords before, now;
+  bool kept = false;       // h0 is that of the record
+  bool renewed = false;    // and the record is made anew
+  int again = 0;           // > 0: for bubbles alone that had more contacts than this
+  FOAM_FUNCTION bool done(int i) const { return again > 0 && now.count(i) <= again; }
+  FOAM_FUNCTION bool fit(int i) const { return !renewed || now.count(i) <= now.slots; }
+  FOAM_FUNCTION void begin(int i, LAMMPS_NS::tagint id) const
+  {
+    if (!renewed) return;
+    now.id(i) = static_cast<double>(id);
+    now.count(i) = 0.0;
+  }
+  FOAM_FUNCTION double of(int i, LAMMPS_NS::tagint partner) const
+  {
+    if (!kept) return 0.0;
+    const int m = before.find(i, partner);
+    return m < 0 ? 0.0 : before.value(i, m, 0);
+  }
+  FOAM_FUNCTION void keep(int i, LAMMPS_NS::tagint partner, double h0) const
+  {
+    if (!renewed) return;
+    const int m = now.add(i, partner);
+    if (m >= 0) now.value(i, m, 0) = h0;
+  }
+};
+
+// Pairs: each bubble has all its partners in its row of the list, and takes its own forces alone
+
+template <class B, class List> struct Collide {
+  static constexpr const char *NAME = "bubble: collide";
+  B b;
+  List list;
+  Encounter<B> encounter;
+  Films films;
+  bool moves = true;      // adds the forces to those of LAMMPS
+  double *virial[6]{};    // of each bubble, where it is asked for
+
+  FOAM_FUNCTION void operator()(int n, CollisionTotals &all) const
+  {
+    const auto row = list.row(n);
+    const int i = row.i;
+    if (films.done(i)) return;
+    films.begin(i, b.tag(i));
+    if (encounter.looked) encounter.looks.clear(i);
+    double total[3] = {0.0, 0.0, 0.0};
+    CollisionTotals mine;
+    row.for_each([&](int j, auto) { pass(i, j, total, mine); });
+
+    if (films.renewed) all.most.raise(films.now.count(i));
+    if (!films.fit(i)) return;
+    if (moves)
+      for (int k = 0; k < 3; k++) b.f(i, k) += total[k];
+    const double v[6] = {mine.xx, mine.yy, mine.zz, mine.xy, mine.xz, mine.yz};
+    if (virial[0])
+      for (int k = 0; k < 6; k++) virial[k][i] = v[k];
+    all.join(mine);
+  }
+
+  FOAM_FUNCTION void pass(int i, int j, double *total, CollisionTotals &mine) const
+  {
+    const double Ri = b.radius(i), Rj = b.radius(j);
+    const Gap gap = Gap::to_bubble(Ri, Rj);
+    double r[3], square = 0.0;
+    for (int k = 0; k < 3; k++) {
+      r[k] = b.x(i, k) - b.x(j, k);
+      square += r[k] * r[k];
+    }
+    const double reach = Ri + Rj + encounter.model.range(gap);
+    if (!(square < reach * reach) || !(square > 0.0)) return;    // coincident: no direction
+
+    const double distance = std::sqrt(square);
+    double u[3], unit[3], force[3];
+    for (int k = 0; k < 3; k++) {
+      unit[k] = r[k] / distance;
+      u[k] = b.v(i, k) - b.v(j, k);
+    }
+    const Meeting m =
+        encounter(i, gap, distance - Ri - Rj, unit, u, films.of(i, b.tag(j)), force, mine);
+    if (m.closed) films.keep(i, b.tag(j), m.h0);
+    for (int k = 0; k < 3; k++) total[k] += force[k];
+    mine.xx += 0.5 * r[0] * force[0];
+    mine.yy += 0.5 * r[1] * force[1];
+    mine.zz += 0.5 * r[2] * force[2];
+    mine.xy += 0.5 * r[0] * force[1];
+    mine.xz += 0.5 * r[0] * force[2];
+    mine.yz += 0.5 * r[1] * force[2];
+  }
+};
+
+// A plane.  It has no ID: partner 0 in the records.  Forces are those on the wall, > 0 along the axes.
+
+struct WallTotals : CollisionTotals {
+  Foam::FoamSum fx, fy, fz;
+  FOAM_FUNCTION void join(const WallTotals &other)
+  {
+    CollisionTotals::join(other);
+    fx.join(other.fx);
+    fy.join(other.fy);
+    fz.join(other.fz);
+  }
+};
+
+template <class B> struct MeetPlane {
+  static constexpr const char *NAME = "bubble: meet plane";
+  B b;
+  double place[3], normal[3];
+  Encounter<B> encounter;
+  Films films;
+  bool moves = true;
+
+  FOAM_FUNCTION void operator()(int i, WallTotals &all) const
+  {
+    if (films.done(i)) return;
+    films.begin(i, b.tag(i));
+    double height = 0.0;
+    for (int k = 0; k < 3; k++) height += (b.x(i, k) - place[k]) * normal[k];
+    touch(i, height, normal, 0, all);
+  }
+
+  // distance of the centre from the wall, unit vector to it
+
+  FOAM_FUNCTION void touch(int i, double distance, const double *unit, LAMMPS_NS::tagint id,
+                           WallTotals &all) const
+  {
+    const Gap gap = Gap::to_wall(b.radius(i));
+    const double width = distance - gap.Ri, u[3] = {b.v(i, 0), b.v(i, 1), b.v(i, 2)};
+    if (!(width < encounter.model.range(gap))) return;
+    double force[3];
+    const Meeting m = encounter(i, gap, width, unit, u, films.of(i, id), force, all);
+    if (m.closed) films.keep(i, id, m.h0);
+    if (!moves) return;
+    for (int k = 0; k < 3; k++) b.f(i, k) += force[k];
+    all.fx += -force[0];
+    all.fy += -force[1];
+    all.fz += -force[2];
+  }
+};
+
+// Energy that the viscous terms have taken, from their powers at each step
+
+struct Losses {
+  enum { VISCOUS, LUBRICATION, SLIDING, TERMS };
+  double sum[TERMS] = {0.0, 0.0, 0.0};
+
+  void begin(const CollisionTotals &now) { take(now, before); }
+  void step(const CollisionTotals &now, double dt)    // trapezoidal rule
+  {
+    double power[TERMS];
+    take(now, power);
+    for (int k = 0; k < TERMS; k++) {
+      sum[k] -= 0.5 * dt * (before[k] + power[k]);
+      before[k] = power[k];
+    }
+  }
+
+ private:
+  double before[TERMS] = {0.0, 0.0, 0.0};
+  static void take(const CollisionTotals &now, double *power)
+  {
+    power[VISCOUS] = now.viscous;
+    power[LUBRICATION] = now.lubrication;
+    power[SLIDING] = now.sliding;
+  }
+};
+
+}    // namespace Bubble
+
+#endif

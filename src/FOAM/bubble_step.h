@@ -1,0 +1,85 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   This software is distributed under the GNU General Public License.
+   Wet-foam package: see the README file of the package.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_BUBBLE_STEP_H
+#define LMP_BUBBLE_STEP_H
+
+#include "bubble_liquid.h"
+
+#include <cmath>
+
+// One step of bubbles with inertia: velocity Verlet with one evaluation of forces, which depend on velocities.
+//
+//   v_1/2 = v + (h/2) a,   x' = x + h v_1/2,   v_pred = v_1/2 + (h/2) a
+//   a' = a(x', v_pred),    v' = v_pred + d,    d = (h/2) (a' - a) / (1 + h Gamma / 2)
+//
+// The predictor of v is of first order, so that forces at x' are wrong by O(h^2), and the step is of second order.
+// Gamma = 0: explicit, stable for friction up to Gamma h = 2.  With the friction's own Gamma the step is Crank and
+// Nicolson's: (2 - h Gamma) / (2 + h Gamma) in place of exp(- h Gamma).  h |d| is an estimate of the error of x.
+
+namespace Bubble {
+
+struct StepTotals {
+  Foam::FoamMax error;    // h |d| / R
+  FOAM_FUNCTION void join(const StepTotals &other) { error.join(other.error); }
+};
+
+struct StepColumns {
+  double *kick[3];         // (h/2) a
+  double *predicted[3];    // v_pred, and
+  double *end[3];          // v', at the end of the step before
+};
+
+template <class B> struct Advance {
+  static constexpr const char *NAME = "bubble: advance";
+  B b;
+  Foam::Values<double> mass;
+  Liquid liquid;
+  StepColumns s;
+  double h;
+  FOAM_FUNCTION void operator()(int i) const
+  {
+    const double half = 0.5 * h / effective_mass(liquid, mass(i), b.radius(i));
+    for (int k = 0; k < 3; k++) {
+      const double kick = half * b.f(i, k), v = b.v(i, k) + kick;
+      s.kick[k][i] = kick;
+      b.put(i, k, b.place(i, k) + h * v);
+      b.v(i, k) = v + kick;
+    }
+  }
+};
+
+template <class B> struct Finish {
+  static constexpr const char *NAME = "bubble: finish";
+  B b;
+  Foam::Values<double> mass;
+  Liquid liquid;
+  StepColumns s;
+  const double *stiffness;    // of the drag, or none
+  double h;
+  FOAM_FUNCTION void operator()(int i, StepTotals &all) const
+  {
+    const double half = 0.5 * h / effective_mass(liquid, mass(i), b.radius(i));
+    const double part = stiffness ? 1.0 / (1.0 + half * stiffness[i]) : 1.0;
+    double square = 0.0;
+    for (int k = 0; k < 3; k++) {
+      const double d = part * (half * b.f(i, k) - s.kick[k][i]);
+      s.predicted[k][i] = b.v(i, k);
+      b.v(i, k) += d;
+      s.end[k][i] = b.v(i, k);
+      if (stiffness) b.f(i, k) -= stiffness[i] * d;    // the drag at v'
+      square += d * d;
+    }
+    all.error.raise(h * std::sqrt(square) / b.radius(i));
+  }
+};
+
+}    // namespace Bubble
+
+#endif

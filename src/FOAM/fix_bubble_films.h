@@ -1,0 +1,60 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   This software is distributed under the GNU General Public License.
+   Wet-foam package: see the README file of the package.
+------------------------------------------------------------------------- */
+
+#ifdef FIX_CLASS
+// clang-format off
+FixStyle(bubble/films,FixBubbleFilms);
+// clang-format on
+#else
+
+#ifndef LMP_FIX_BUBBLE_FILMS_H
+#define LMP_FIX_BUBBLE_FILMS_H
+
+#include "bubble_collision.h"
+#include "fix_foam_records.h"
+
+namespace LAMMPS_NS {
+
+// h0 of contacts.  Pair style bubble/collision makes one by itself for those of bubbles.
+
+class FixBubbleFilms : public FixFoamRecords {
+ public:
+  FixBubbleFilms(class LAMMPS *, int, char **);
+  int setmask() override;
+
+  // one evaluation of forces: run(films) fills records, and tells how many contacts a bubble has at most
+
+  template <class Space, class Run> void evaluate(Space &space, int nmax, Run &&run)
+  {
+    history.use(nmax);
+    int again = 0;
+    while (true) {
+      const int slots = history.slots();
+      const int most = run(Bubble::Films{history.records(space, history.committed),
+                                         history.records(space, history.trial), true, true, again});
+      if (most <= slots) break;
+      make_room(most);
+      again = slots;
+    }
+    history.commit();
+  }
+
+  template <class Space> Bubble::Films now(Space &space)    // to be read
+  {
+    return {history.records(space, history.committed), {}, true, false};
+  }
+
+ protected:
+  void look_at(int) override {}
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
+#endif

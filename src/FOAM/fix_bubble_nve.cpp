@@ -1,0 +1,300 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   This software is distributed under the GNU General Public License.
+   Wet-foam package: see the README file of the package.
+------------------------------------------------------------------------- */
+
+#include "fix_bubble_nve.h"
+
+#include "fix_bubble_rise.h"
+#include "fix_wall_bubble.h"
+#include "foam_host.h"
+#include "foam_input.h"
+#include "pair_bubble_collision.h"
+
+#include "atom.h"
+#include "comm.h"
+#include "error.h"
+#include "force.h"
+#include "modify.h"
+#include "output.h"
+#include "update.h"
+
+#include <algorithm>
+#include <cmath>
+
+using namespace LAMMPS_NS;
+using namespace FixConst;
+
+/* ----------------------------------------------------------------------
+   fix ID group-ID bubble/nve keyword value ...
+------------------------------------------------------------------------- */
+
+FixBubbleNVE::FixBubbleNVE(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg)
+{
+  using Value = FoamInput::Value;
+  FoamInput input(error, "Fix bubble/nve", narg - 3, arg + 3);
+  input.keywords({{"tol",
+                   [&](const Value &v) {
+                     tolerance = v.number(FoamInput::ABOVE, 0.0);
+                   }},
+                  {"dtmax", [&](const Value &v) {
+                     longest = v.number(FoamInput::ABOVE, 0.0);
+                   }}});
+  time_integrate = 1;
+  dynamic_group_allow = 1;
+  nevery = 1;
+  vector_flag = 1;
+  size_vector = 4;
+  extvector = 0;
+  global_freq = 1;
+  restart_global = restart_peratom = 1;
+  create_attribute = 1;
+  maxexchange = NCOLUMNS;
+
+  columns.use(atom->nmax);
+  for (int i = 0; i < atom->nlocal; i++) set_arrays(i);
+  atom->add_callback(Atom::GROW);
+  atom->add_callback(Atom::RESTART);
+  called_back = true;
+}
+
+FixBubbleNVE::~FixBubbleNVE()
+{
+  if (!called_back) return;
+  atom->delete_callback(id, Atom::GROW);
+  atom->delete_callback(id, Atom::RESTART);
+}
+
+int FixBubbleNVE::setmask()
+{
+  return INITIAL_INTEGRATE | FINAL_INTEGRATE | END_OF_STEP;
+}
+
+void FixBubbleNVE::init()
+{
+  if (!atom->radius_flag || !atom->rmass_flag)
+    error->all(FLERR, "Fix bubble/nve needs atom_style sphere");
+  if (utils::strmatch(update->integrate_style, "^respa"))
+    error->all(FLERR, "Fix bubble/nve needs run_style verlet");
+  pair = PairBubbleCollision::of(lmp);
+  rise = FixBubbleRise::of(lmp);
+  int others = 0;
+  for (auto &fix : modify->get_fix_list())
+    if (fix != this && fix->time_integrate) others++;
+  if (others && comm->me == 0)
+    error->warning(FLERR, "Fix bubble/nve: {} other fix(es) integrate, too: each bubble needs one",
+                   others);
+  dt_given = update->dt;
+}
+
+Bubble::Liquid FixBubbleNVE::liquid() const
+{
+  return rise ? rise->liquid : Bubble::Liquid();
+}
+
+Bubble::StepColumns FixBubbleNVE::step_columns()
+{
+  Bubble::StepColumns s;
+  for (int k = 0; k < 3; k++) {
+    s.kick[k] = columns[KICK + k];
+    s.predicted[k] = columns[PREDICTED + k];
+    s.end[k] = columns[END + k];
+  }
+  return s;
+}
+
+/* ----------------------------------------------------------------------
+   set-up: the forces that the last step ended with, unless somebody has changed velocities
+------------------------------------------------------------------------- */
+
+void FixBubbleNVE::setup_pre_exchange()
+{
+  for (int i = 0; i < atom->nlocal; i++)
+    for (int k = 0; k < 3; k++) {
+      double &v = atom->v[i][k];
+      const bool changed = v != columns[END + k][i];
+      if (changed) columns[PREDICTED + k][i] = columns[END + k][i] = v;
+      v = columns[PREDICTED + k][i];
+    }
+}
+
+void FixBubbleNVE::setup(int)
+{
+  const double *const stiffness = rise ? rise->stiffness() : nullptr;
+  for (int i = 0; i < atom->nlocal; i++)
+    for (int k = 0; k < 3; k++) {
+      double &v = atom->v[i][k];
+      const double d = columns[END + k][i] - v;
+      v = columns[END + k][i];
+      if (stiffness) atom->f[i][k] -= stiffness[i] * d;
+    }
+  if (tolerance > 0.0) set_timestep(h > 0.0 ? h : std::min(update->dt, next_step()));
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FixBubbleNVE::initial_integrate(int)
+{
+  FoamHost space(lmp, groupbit);
+  space.for_each(atom->nlocal,
+                 Bubble::Advance<FoamHost::Bubbles>{
+                     space.bubbles(), {atom->rmass}, liquid(), step_columns(), update->dt});
+}
+
+void FixBubbleNVE::final_integrate()
+{
+  FoamHost space(lmp, groupbit);
+  totals = space.totals<Bubble::StepTotals>(
+      atom->nlocal, Bubble::Finish<FoamHost::Bubbles>{space.bubbles(),
+                                                      {atom->rmass},
+                                                      liquid(),
+                                                      step_columns(),
+                                                      rise ? rise->stiffness() : nullptr,
+                                                      update->dt});
+}
+
+// as fix dt/reset does
+
+void FixBubbleNVE::end_of_step()
+{
+  if (tolerance > 0.0) set_timestep(next_step());
+}
+
+void FixBubbleNVE::set_timestep(double step)
+{
+  h = step;
+  if (update->dt == step) return;
+  update->update_time();
+  update->dt = step;
+  update->dt_default = 0;
+  if (force->pair) force->pair->reset_dt();
+  for (auto &fix : modify->get_fix_list()) fix->reset_dt();
+  output->reset_dt();
+}
+
+// The error of a step, h |d| / R, goes with its third power.  No gap closes within a step: forces grow as it does.
+
+double FixBubbleNVE::next_step()
+{
+  constexpr double SAFETY = 0.9, GROW = 1.3, SHRINK = 0.3, CLOSE = 0.2;
+  double mine[2] = {totals.error, pair ? double(pair->of_this_rank().closing) : 0.0}, all[2];
+  for (auto &fix : modify->get_fix_list())
+    if (auto *wall = dynamic_cast<FixWallBubble *>(fix))
+      mine[1] = std::max(mine[1], double(wall->of_this_rank().closing));
+  MPI_Allreduce(mine, all, 2, MPI_DOUBLE, MPI_MAX, world);
+  error_last = all[0];
+  error_worst = std::max(error_worst, error_last);
+  const double factor = error_last > 0.0 ? SAFETY * std::cbrt(tolerance / error_last) : GROW;
+  double step = update->dt * std::clamp(factor, SHRINK, GROW);
+  if (all[1] > 0.0) step = std::min(step, CLOSE / all[1]);
+  if (longest > 0.0) step = std::min(step, longest);
+  shortest = shortest > 0.0 ? std::min(shortest, step) : step;
+  if (!std::isfinite(error_last) || !(update->atime + step > update->atime))
+    error->all(FLERR,
+               "Fix bubble/nve: the step fell to {} at step {}, with error {}: look for bad forces",
+               step, update->ntimestep, error_last);
+  return step;
+}
+
+void FixBubbleNVE::post_run()
+{
+  if (!(tolerance > 0.0)) return;
+  const double next = h;
+  set_timestep(dt_given);
+  h = next;
+}
+
+double FixBubbleNVE::compute_vector(int n)
+{
+  double all;
+  if (n == 0) {
+    double mine = totals.error;
+    MPI_Allreduce(&mine, &all, 1, MPI_DOUBLE, MPI_MAX, world);
+    return all;
+  }
+  if (n == 1) return tolerance > 0.0 ? error_worst : 0.0;
+  if (n == 2) return update->dt;
+  return shortest;
+}
+
+/* ----------------------------------------------------------------------
+   columns travel with the bubbles
+------------------------------------------------------------------------- */
+
+void FixBubbleNVE::grow_arrays(int nmax)
+{
+  columns.use(nmax);
+}
+
+void FixBubbleNVE::copy_arrays(int i, int j, int)
+{
+  columns.copy(i, j);
+}
+
+void FixBubbleNVE::set_arrays(int i)    // a new bubble
+{
+  for (int k = 0; k < 3; k++) {
+    columns[KICK + k][i] = 0.0;
+    columns[PREDICTED + k][i] = columns[END + k][i] = atom->v[i][k];
+  }
+}
+
+int FixBubbleNVE::pack_exchange(int i, double *buf)
+{
+  return columns.pack(i, buf);
+}
+
+int FixBubbleNVE::unpack_exchange(int i, double *buf)
+{
+  return columns.unpack(i, buf);
+}
+
+int FixBubbleNVE::pack_restart(int i, double *buf)
+{
+  buf[0] = size_restart(i);
+  columns.pack(i, buf + 1);
+  return 1 + NCOLUMNS;
+}
+
+void FixBubbleNVE::unpack_restart(int i, int nth)
+{
+  const double *extra = atom->extra[i];
+  for (int m = 0; m < nth; m++) extra += static_cast<int>(*extra);
+  columns.unpack(i, extra + 1);
+}
+
+int FixBubbleNVE::size_restart(int)
+{
+  return 1 + NCOLUMNS;
+}
+
+int FixBubbleNVE::maxsize_restart()
+{
+  return 1 + NCOLUMNS;
+}
+
+void FixBubbleNVE::write_restart(FILE *fp)
+{
+  const double values[] = {h, error_worst, shortest};
+  if (comm->me != 0) return;
+  const int size = sizeof(values);
+  fwrite(&size, sizeof(int), 1, fp);
+  fwrite(values, size, 1, fp);
+}
+
+void FixBubbleNVE::restart(char *buf)
+{
+  const auto *values = (const double *) buf;
+  h = values[0];
+  error_worst = values[1];
+  shortest = values[2];
+}
+
+double FixBubbleNVE::memory_usage()
+{
+  return bytes(all_columns);
+}

@@ -1,0 +1,83 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   This software is distributed under the GNU General Public License.
+   Wet-foam package: see the README file of the package.
+------------------------------------------------------------------------- */
+
+#ifdef FIX_CLASS
+// clang-format off
+FixStyle(bubble/nve,FixBubbleNVE);
+// clang-format on
+#else
+
+#ifndef LMP_FIX_BUBBLE_NVE_H
+#define LMP_FIX_BUBBLE_NVE_H
+
+#include "bubble_step.h"
+#include "fix.h"
+#include "foam_columns.h"
+
+namespace LAMMPS_NS {
+
+// Motion of bubbles with inertia (bubble_step.h), with the timestep as given, or chosen by the error of a step.
+//
+// Forces are those of the predicted velocities.  So that a run goes on bit by bit where another has ended, the set-up
+// of a run finds bubbles with these velocities; at its end they have their own again.
+
+class FixBubbleNVE : public Fix {
+ public:
+  FixBubbleNVE(class LAMMPS *, int, char **);
+  ~FixBubbleNVE() override;
+  int setmask() override;
+  void init() override;
+  void setup_pre_exchange() override;
+  void setup(int) override;
+  void initial_integrate(int) override;
+  void final_integrate() override;
+  void end_of_step() override;
+  void post_run() override;
+  void reset_dt() override {}
+  double compute_vector(int) override;
+
+  void grow_arrays(int) override;
+  void copy_arrays(int, int, int) override;
+  void set_arrays(int) override;
+  int pack_exchange(int, double *) override;
+  int unpack_exchange(int, double *) override;
+  int pack_restart(int, double *) override;
+  void unpack_restart(int, int) override;
+  int size_restart(int) override;
+  int maxsize_restart() override;
+  void write_restart(FILE *) override;
+  void restart(char *) override;
+  double memory_usage() override;
+
+ protected:
+  FoamColumnList all_columns;
+  enum { KICK, PREDICTED = 3, END = 6, NCOLUMNS = 9 };
+  FoamColumns columns{all_columns, "steps of bubbles", NCOLUMNS};
+
+ private:
+  class PairBubbleCollision *pair = nullptr;
+  class FixBubbleRise *rise = nullptr;    // none: no liquid
+  double tolerance = 0.0;                 // 0: the timestep is fixed
+  double longest = 0.0;                   // 0: no limit
+  double h = 0.0;                         // next step; 0 before the first
+  double dt_given = 0.0;                  // of the timestep command, put back after a run
+  Bubble::StepTotals totals;              // of this rank
+  double error_last = 0.0, error_worst = 0.0, shortest = 0.0;
+  bool called_back = false;
+
+  Bubble::Liquid liquid() const;
+  Bubble::StepColumns step_columns();
+  double next_step();
+  void set_timestep(double);
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
+#endif
