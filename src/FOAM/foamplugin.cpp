@@ -7,6 +7,7 @@
 
 #include "compute_foam_bubble.h"
 #include "create_foam.h"
+#include "compute_bubble_collision.h"
 #include "fix_bubble_films.h"
 #include "fix_bubble_nve.h"
 #include "fix_bubble_rise.h"
@@ -113,10 +114,10 @@ void lammpsplugin_init(void *lmp, void *handle, void *regfunc)
     announce(&plugin, lmp);
     brought("fix", name);
   };
-  auto compute = [&]<class Style>(const char *name) {
+  auto compute = [&]<class Style>(const char *name, const char *info) {
     plugin.style = "compute";
     plugin.name = name;
-    plugin.info = "compute foam/bubble: contacts, free surface and growth of each bubble";
+    plugin.info = info;
     plugin.creator.v2 = make_style<Compute, Style>;
     announce(&plugin, lmp);
     brought("compute", name);
@@ -130,6 +131,8 @@ void lammpsplugin_init(void *lmp, void *handle, void *regfunc)
     brought("command", name);
   };
   const char *const durian = "pair style durian/foam: bubbles that touch, Durian's bubble model";
+  const char *const bubble =
+      "compute foam/bubble: contacts, free surface and growth of each bubble";
   const char *const coarsen = "fix foam/coarsen: gas exchange between bubbles";
   const char *const ages = "fix foam/contacts: how long bubbles have been in contact";
   const char *const flow = "fix foam/flow: a flow of the liquid between the bubbles";
@@ -144,7 +147,7 @@ void lammpsplugin_init(void *lmp, void *handle, void *regfunc)
   fix.operator()<FixFoamABM>("foam/abm", abm);
   fix.operator()<FixFoamRKC>("foam/rkc", rkc);
   fix.operator()<FixFoamWall>("foam/wall", wall);
-  compute.operator()<ComputeFoamBubble>("foam/bubble");
+  compute.operator()<ComputeFoamBubble>("foam/bubble", bubble);
 
 #ifdef FOAM_KOKKOS
   styles += ", each also with /kk";
@@ -157,7 +160,7 @@ void lammpsplugin_init(void *lmp, void *handle, void *regfunc)
   fix.operator()<FixFoamABMKokkos<LMPDeviceType>>("foam/abm/kk", abm);
   fix.operator()<FixFoamRKCKokkos<LMPDeviceType>>("foam/rkc/kk", rkc);
   fix.operator()<FixFoamWallKokkos<LMPDeviceType>>("foam/wall/kk", wall);
-  compute.operator()<ComputeFoamBubbleKokkos<LMPDeviceType>>("foam/bubble/kk");
+  compute.operator()<ComputeFoamBubbleKokkos<LMPDeviceType>>("foam/bubble/kk", bubble);
 
   pair.operator()<PairDurianFoamKokkos<LMPDeviceType>>("durian/foam/kk/device", durian);
   fix.operator()<FixFoamCoarsenKokkos<LMPDeviceType>>("foam/coarsen/kk/device", coarsen);
@@ -166,7 +169,7 @@ void lammpsplugin_init(void *lmp, void *handle, void *regfunc)
   fix.operator()<FixFoamABMKokkos<LMPDeviceType>>("foam/abm/kk/device", abm);
   fix.operator()<FixFoamRKCKokkos<LMPDeviceType>>("foam/rkc/kk/device", rkc);
   fix.operator()<FixFoamWallKokkos<LMPDeviceType>>("foam/wall/kk/device", wall);
-  compute.operator()<ComputeFoamBubbleKokkos<LMPDeviceType>>("foam/bubble/kk/device");
+  compute.operator()<ComputeFoamBubbleKokkos<LMPDeviceType>>("foam/bubble/kk/device", bubble);
 
   pair.operator()<PairDurianFoamKokkos<LMPHostType>>("durian/foam/kk/host", durian);
   fix.operator()<FixFoamCoarsenKokkos<LMPHostType>>("foam/coarsen/kk/host", coarsen);
@@ -175,7 +178,7 @@ void lammpsplugin_init(void *lmp, void *handle, void *regfunc)
   fix.operator()<FixFoamABMKokkos<LMPHostType>>("foam/abm/kk/host", abm);
   fix.operator()<FixFoamRKCKokkos<LMPHostType>>("foam/rkc/kk/host", rkc);
   fix.operator()<FixFoamWallKokkos<LMPHostType>>("foam/wall/kk/host", wall);
-  compute.operator()<ComputeFoamBubbleKokkos<LMPHostType>>("foam/bubble/kk/host");
+  compute.operator()<ComputeFoamBubbleKokkos<LMPHostType>>("foam/bubble/kk/host", bubble);
   brought = told;
 #endif
 
@@ -184,6 +187,8 @@ void lammpsplugin_init(void *lmp, void *handle, void *regfunc)
   fix.operator()<FixBubbleRise>("bubble/rise", "fix bubble/rise: buoyancy, drag and added mass");
   fix.operator()<FixWallBubble>("wall/bubble", "fix wall/bubble: walls for bubbles with inertia");
   fix.operator()<FixBubbleNVE>("bubble/nve", "fix bubble/nve: motion of bubbles with inertia");
+  compute.operator()<ComputeBubbleCollision>(
+      "bubble/collision", "compute bubble/collision: forces on each bubble by term");
   brought = [](const char *, const std::string &) {
   };
   fix.operator()<FixBubbleFilms>("bubble/films",
