@@ -1,0 +1,188 @@
+"""Forces of bubbles with inertia, as LAMMPS has them: against the model of Heitkam et al. 2017 (doc/collision.rst),
+written down here once more, in all the ways in which a scene can be put into LAMMPS.  How bubbles move:
+test_bubble_motion.py.  The formulae one by one: physics/test_bubble.cpp."""
+
+import numpy as np
+import pytest
+
+from runner import PRECISE, data_file
+
+SIGMA, MU, RHO, G, GAS = 0.03, 1e-3, 1000.0, 9.81, 1.2    # water with soap
+MM, UM = 1e-3, 1e-6
+R6 = 0.6 * MM
+
+HEAD = """
+units        si
+atom_style   sphere
+atom_modify  map array
+comm_modify  vel yes
+boundary     {boundary}
+{before}
+read_data    data
+{after}
+set          group all density {density}
+neighbor     {skin} bin
+"""
+PAIR = f"pair_style bubble/collision {SIGMA} {MU}"
+TERMS = ("elastic", "viscous", "lubrication", "tangential", "drag", "buoyancy")
+LOOKS = ("delta", "ra", "h0", "contacts", "energy")
+OUTPUT = """
+compute      c all bubble/collision {terms}
+compute      p all pair bubble/collision
+dump         d all custom {every} dump id x y z vx vy vz fx fy fz c_c[*]
+dump_modify  d sort id format float %.17g time yes
+thermo_style custom step time dt c_p c_p[*] {columns}
+thermo       {every}
+"""
+
+
+def text(pair="", wall="", rise="", step="fix s all bubble/nve", dt=1e-5, run="run 0", every=1, skin=1e-4, before="",
+         after="", boundary="p p p", density=GAS):
+    """Input.  wall: arguments of fix wall/bubble, or a list of them; rise: of fix bubble/rise."""
+    walls = [wall] if isinstance(wall, str) else wall
+    lines = [HEAD.format(before=before, after=after, boundary=boundary, skin=skin, density=density),
+             f"{PAIR} {pair}", "pair_coeff * *"]
+    columns = []
+    for name, arguments in zip("wxy", walls):
+        if arguments:
+            lines.append(f"fix {name} all wall/bubble {arguments}")
+            columns.append(f"f_{name} f_{name}[*]")
+    if rise:
+        lines.append(f"fix r all bubble/rise {rise}")
+        columns.append("f_r[*]")
+    lines.append(step)
+    if step:
+        columns.append("f_s[*]")
+    terms = " ".join(f"{term}_{axis}" for term in TERMS for axis in "xyz") + " " + " ".join(LOOKS)
+    lines += [f"timestep {dt}", OUTPUT.format(terms=terms, columns=" ".join(columns), every=every), PRECISE, run]
+    return "\n".join(lines) + "\n"
+
+
+BOX = [(-10 * MM, 10 * MM)] * 3
+
+
+def data(x, R, v=None, box=BOX):
+    x = np.atleast_2d(x)
+    return {"data": data_file(box, x, np.broadcast_to(R, len(x)), v)}
+
+
+def term(frame, name):
+    """(N, 3) of a vector, (N,) of a number, as the compute has it."""
+    if name in LOOKS:
+        return frame[f"c_c[{19 + LOOKS.index(name)}]"]
+    first = 1 + 3 * TERMS.index(name)
+    return frame.array(*[f"c_c[{k}]" for k in range(first, first + 3)])
+
+
+# ---- the model, once more -----------------------------------------------------------------------
+
+def elastic(Delta, R):
+    return SIGMA * R * (18.5 * (Delta / R)**2 + 2.0 * Delta / R)
+
+
+def series(overlap, Ri, Rj):
+    """Force, Delta_i and Delta_j of two in series: eq. 9 for both, by bisection for Delta_i."""
+    lo, hi = 0.0, overlap
+    for _ in range(100):
+        middle = 0.5 * (lo + hi)
+        if elastic(middle, Ri) > elastic(overlap - middle, Rj):
+            hi = middle
+        else:
+            lo = middle
+    return elastic(lo, Ri), lo, overlap - lo
+
+
+def film(Delta, R, h0, squared):
+    """eqs. 10 and 17: coefficient of the approach speed."""
+    Ra = R * (-0.04 + np.sqrt(0.0016 + 9.44 * Delta / R)) / 4.72
+    D = 0.34 / np.sqrt(Delta / R + 0.0002)
+    return 12 * MU / (2 * np.pi) * (D**2 if squared else D) * (4.0 * np.sqrt(R**3 / h0) + 3.0 * Ra * R / h0)
+
+
+def wall_forces(R, gap, un, ut, squared=False):
+    """Along the normal, and along the wall: bubble at the first evaluation, which sets h0."""
+    h0 = max(np.sqrt(3 / 8 * MU * max(-un, 0.0) * R**2 / SIGMA), 10 * UM)
+    closed = gap < h0
+    Delta = max(h0 - gap, 0.0)
+    slide = max(gap, 10 * UM)
+    return {
+        "h0": h0 if closed else 0.0,
+        "elastic": elastic(Delta, R),
+        "viscous": -film(Delta, R, h0, squared) * un if closed else 0.0,
+        "lubrication": -6 * np.pi * MU * R**2 * un / gap if h0 <= gap < R else 0.0,
+        "tangential": 16 / 5 * np.pi * MU * R * ut * np.log(slide / R) if slide < R else 0.0,
+    }
+
+
+def pair_forces(Ri, Rj, gap, un, ut, squared=False):
+    star, mean = Ri * Rj / (Ri + Rj), 2 * Ri * Rj / (Ri + Rj)
+    h0 = max(np.sqrt(3 / 8 * MU * max(-un, 0.0) * star * max(Ri, Rj) / SIGMA), 10 * UM)
+    closed = gap < h0
+    overlap = max(h0 - gap, 0.0)
+    slide = max(gap, 10 * UM)
+    return {
+        "h0": h0 if closed else 0.0,
+        "elastic": series(overlap, Ri, Rj)[0],
+        "viscous": -0.25 * film(0.5 * overlap, mean, h0, squared) * un if closed else 0.0,
+        "lubrication": -6 * np.pi * MU * star**2 * un / gap if h0 <= gap < mean else 0.0,
+        "tangential": 16 / 5 * np.pi * MU * mean * ut * np.log(slide / mean) if slide < mean else 0.0,
+    }
+
+
+# ---- forces of one state ------------------------------------------------------------------------
+
+GAPS = {"beyond": 1.01, "just within": 0.99, "wide": 0.3, "film": 0.02, "touching": 0.0, "pressed": -0.1, "deep": -0.6}
+NORMAL = np.array([2.0, -1.0, 2.0]) / 3.0
+ALONG = np.array([1.0, 2.0, 0.0]) / np.sqrt(5.0)
+
+
+def assert_forces(frame, i, expected, n, along, R):
+    """1e-9: digits that gap / R loses in the difference of positions, which the film's log and roots pass on."""
+    scale = max(SIGMA * R * 1e-6, *(abs(value) for name, value in expected.items() if name != "h0"))
+    for name in ("elastic", "viscous", "lubrication", "tangential"):
+        direction = along if name == "tangential" else n
+        assert term(frame, name)[i] == pytest.approx(expected[name] * direction, abs=1e-9 * scale), name
+    assert term(frame, "h0")[i] == pytest.approx(expected["h0"], rel=1e-9)
+    total = sum(term(frame, name)[i] for name in TERMS)
+    assert frame.array("fx", "fy", "fz")[i] == pytest.approx(total, rel=1e-12, abs=1e-12 * scale)
+
+
+@pytest.mark.parametrize("un, squared", [(-0.1, False), (0.05, True)])
+@pytest.mark.parametrize("gap", GAPS)
+def test_wall(lmp, gap, un, squared):
+    x, v = NORMAL * R6 * (1 + GAPS[gap]), un * NORMAL + 0.03 * ALONG
+    wall = "plane 0 0 0 {} {} {}".format(*(3 * NORMAL))
+    result = lmp(text(wall=wall, pair="viscous derived" if squared else ""), data(x, R6, [v]))
+    expected = wall_forces(R6, GAPS[gap] * R6, un, 0.03, squared)
+    frame = result.dump("dump")[0]
+    assert_forces(frame, 0, expected, NORMAL, ALONG, R6)
+    table = result.thermo[0]
+    on_wall = [table[f"f_w[{k}]"][0] for k in (1, 2, 3)]
+    assert on_wall == pytest.approx(-frame.array("fx", "fy", "fz")[0], rel=1e-12)
+    assert table["f_w[4]"][0] == (expected["h0"] > 0)
+    powers = [table[f"f_w[{k}]"][0] for k in (5, 6, 7)]
+    assert powers == pytest.approx([expected["viscous"] * un, expected["lubrication"] * un,
+                                    expected["tangential"] * 0.03], rel=1e-9, abs=1e-30)
+    assert max(powers) <= 0.0    # they take energy
+
+
+@pytest.mark.parametrize("ratio, squared", [(1.0, False), (3.0, True), (100.0, False)])
+@pytest.mark.parametrize("gap", GAPS)
+def test_pair(lmp, gap, ratio, squared):
+    Ri, Rj = R6, R6 / ratio
+    mean = 2 * Ri * Rj / (Ri + Rj)
+    width = GAPS[gap] * mean
+    x = np.array([[0.0, 0.0, 0.0], NORMAL * (Ri + Rj + width)])
+    v = np.array([[0.01, 0.0, -0.02], [0.01, 0.0, -0.02]]) + np.array([[0.0], [1.0]]) * (-0.1 * NORMAL + 0.03 * ALONG)
+    result = lmp(text(pair="tangential all" + (" viscous derived" if squared else "")), data(x, [Ri, Rj], v))
+    expected = pair_forces(Ri, Rj, width, -0.1, 0.03, squared)
+    frame = result.dump("dump")[0]
+    assert_forces(frame, 1, expected, NORMAL, ALONG, Rj)
+    forces = frame.array("fx", "fy", "fz")
+    assert np.array_equal(forces[0], -forces[1])
+    table = result.thermo[0]
+    assert [table[f"c_p[{k}]"][0] for k in (1, 2, 3)] == pytest.approx(
+        [-0.1 * expected["viscous"], -0.1 * expected["lubrication"], 0.03 * expected["tangential"]], rel=1e-9, abs=1e-30)
+    if expected["h0"] > 0:
+        Deltas = series(expected["h0"] - width, Ri, Rj)[1:]
+        assert term(frame, "delta") == pytest.approx(np.array(Deltas), rel=1e-8)
