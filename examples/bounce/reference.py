@@ -113,6 +113,7 @@ class Mode:
 def rates(b: Bounce, mode: Mode, y: Array) -> Array:
     """d/dt of (distance, place, rate of distance, rate of place) in this mode."""
     gap, u, ut = y[0] - b.R, -y[2], y[3]
+    width = max(gap, 0.1 * b.hmin)    # trial states beyond an event, which are not kept, must have rates, too
     tilt = b.tilt * PI / 180.0
     lift = (b.rho - b.gas) * b.volume * b.g
     drag = drag_coefficient(b, float(np.hypot(y[2], y[3])))
@@ -122,9 +123,9 @@ def rates(b: Bounce, mode: Mode, y: Array) -> Array:
         h0 = mode.thickness(b, u)
         normal += elastic_force(b, h0 - gap) + film_coefficient(b, h0 - gap, h0) * u
     elif mode.near and b.lubrication == "yes":
-        normal += 6.0 * PI * b.mu * b.R**2 * u / gap
+        normal += 6.0 * PI * b.mu * b.R**2 * u / width
     if mode.near and b.tangential == "yes":
-        along += 3.2 * PI * b.mu * b.R * ut * np.log((b.hmin if mode.thin else gap) / b.R)
+        along += 3.2 * PI * b.mu * b.R * ut * np.log((b.hmin if mode.thin else width) / b.R)
     return np.array([y[2], y[3], normal / b.mass, along / b.mass])
 
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Bounces of in.bounce over scenes, models and steps, and figures of them by plot.py.
 
-    python3 run.py --lmp lmp --out DIR              scenes, variants of the model, sizes of steps: four minutes
+    python3 run.py --lmp lmp --out DIR              scenes, variants of the model, sizes of steps: six minutes
     python3 run.py --lmp lmp --out DIR --full       and a map of radii and tilts: a quarter of an hour
 
 A run that is complete is not done again, so that this can be stopped and started; --dry-run lists the runs. plot.py
@@ -127,7 +127,7 @@ def do(run: Run, lmp: list[str], directory: Path) -> None:
                                     stderr=subprocess.STDOUT).returncode
     except FileNotFoundError:
         sys.exit(f"cannot start LAMMPS: there is no program {command[0]} (option --lmp)")
-    blown = run.name.startswith("trade/") and "lost atoms" in (directory / "screen").read_text().lower()
+    blown = run.name.startswith("trade/") and "ERROR: Lost atoms" in (directory / "screen").read_text()
     if status != 0 and not blown:
         sys.exit(f"LAMMPS stopped with status {status}: see {directory / 'screen'}")
     (directory / "complete").write_text(shlex.join(run.arguments()) + "\n" + ("unstable\n" if blown else ""))
