@@ -45,68 +45,99 @@ struct Collision {
 
   FOAM_FUNCTION double range(const Gap &gap) const    // no force beyond this gap
   {
-    const double r = reach * gap.mean;
-    return r > h0 ? r : h0;
+    return longest(2.0 * gap.mean);
+  }
+  FOAM_FUNCTION double longest(double sum) const    // for all pairs with this sum of radii
+  {
+    const double far = 0.5 * reach * sum, film = h0 > hmin ? h0 : hmin;
+    return far > film ? far : film;
   }
 };
 
 // Forces along the normal are > 0 where they push apart
 
 struct Meeting {
-  bool closed = false;                       // the gap is narrower than h0
-  double h0 = 0.0, Delta = 0.0, Ra = 0.0;    // Delta, R_a: of bubble i
-  double elastic = 0.0, energy = 0.0;
+  bool closed = false;    // the gap is narrower than h0
+  double h0 = 0.0, overlap = 0.0;
+  double elastic = 0.0;
   double viscous = 0.0, lubrication = 0.0, sliding = 0.0;    // coefficients of speeds
 };
 
-// h_kept: h0 of this contact, if it has one
+// Does the gap become a film, and how thick is that?  h_kept: h0 of this contact, if it has one.  No root is taken
+// where the gap is wide.
 
-FOAM_FUNCTION double thickness(const Collision &c, const Gap &gap, double u, double h_kept)
+FOAM_FUNCTION void close(const Collision &c, const Gap &gap, double width, double u, double h_kept,
+                         Meeting &m)
 {
-  if (c.stop == Stop::GIVEN) return c.h0;
-  if (c.stop == Stop::CONTACT && h_kept > 0.0) return h_kept;
-  const double h = film_thickness(c.sigma, c.mu, c.stop == Stop::CURRENT ? std::fabs(u) : u, gap);
-  return h > c.hmin ? h : c.hmin;
+  m.h0 = c.hmin;
+  if (c.stop == Stop::GIVEN) {
+    m.h0 = c.h0;
+  } else if (c.stop == Stop::CONTACT && h_kept > 0.0) {
+    m.h0 = h_kept;
+  } else {
+    const double square =
+        film_thickness_squared(c.sigma, c.mu, c.stop == Stop::CURRENT ? std::fabs(u) : u, gap);
+    if ((width < 0.0 || width * width < square) && c.hmin * c.hmin < square)
+      m.h0 = std::sqrt(square);
+  }
+  m.closed = width < m.h0;
 }
 
 FOAM_FUNCTION void deform(const Collision &c, const Gap &gap, double overlap, Meeting &m)
 {
-  m.Delta = gap.wall ? overlap : 0.5 * overlap;
-  if (c.elastic == Elastic::NONE) return;
   if (c.elastic == Elastic::SPRING) {
-    m.elastic = spring_force(c.sigma, m.Delta);
-    m.energy = (gap.wall ? 1.0 : 2.0) * spring_energy(c.sigma, m.Delta);
-    return;
+    m.elastic = spring_force(c.sigma, gap.wall ? overlap : 0.5 * overlap);
+  } else if (c.elastic == Elastic::QUADRATIC) {
+    m.elastic = c.sigma * (gap.wall ? elastic_force(1.0, overlap, gap.Ri)
+                                    : in_series(overlap, gap.Ri, gap.Rj));
   }
-  const double force =
-      gap.wall ? elastic_force(1.0, overlap, gap.Ri) : in_series(overlap, gap.Ri, gap.Rj);
-  m.elastic = c.sigma * force;
-  m.energy = elastic_energy(c.sigma, m.Delta, gap.Ri);
-  if (gap.wall) return;
-  m.Delta = deformation(force, gap.Ri);
-  m.energy = elastic_energy(c.sigma, m.Delta, gap.Ri) +
-             elastic_energy(c.sigma, deformation(force, gap.Rj), gap.Rj);
 }
 
 FOAM_FUNCTION Meeting meet(const Collision &c, const Gap &gap, double width, double u,
                            double h_kept)
 {
   Meeting m;
-  m.h0 = thickness(c, gap, u, h_kept);
-  m.closed = width < m.h0;
-  const double overlap = m.closed ? (c.film ? m.h0 : 0.0) - width : 0.0;
-  if (overlap > 0.0) deform(c, gap, overlap, m);
-  if (m.closed && c.viscous != Viscous::NONE) {
-    const double x = overlap > 0.0 ? (gap.wall ? 1.0 : 0.5) * overlap / gap.mean : 0.0;
-    const double h = m.h0 / gap.mean, a = film_radius(x);
-    m.viscous = film_viscous(c.mu, film_growth(x), c.viscous == Viscous::DERIVED,
-                             c.integral.first ? c.integral(h, a) : film_fit(h, a), gap);
-    m.Ra = gap.Ri * film_radius(m.Delta / gap.Ri);
-  } else if (!m.closed && c.lubrication && width < c.reach * gap.mean) {
+  close(c, gap, width, u, h_kept, m);
+  if (m.closed) {
+    const double overlap = (c.film ? m.h0 : 0.0) - width;
+    if (overlap > 0.0) {
+      m.overlap = overlap;
+      deform(c, gap, overlap, m);
+    }
+    if (c.viscous != Viscous::NONE) {
+      const double x = (gap.wall ? 1.0 : 0.5) * m.overlap / gap.mean;
+      const double h = m.h0 / gap.mean, a = film_radius(x);
+      m.viscous = film_viscous(c.mu, film_growth(x), c.viscous == Viscous::DERIVED,
+                               c.integral.first ? c.integral(h, a) : film_fit(h, a), gap);
+    }
+  } else if (c.lubrication && width < c.reach * gap.mean) {
     m.lubrication = lubrication(c.mu, width, gap);
   }
   if (c.slides) m.sliding = sliding(c.mu, width > c.hmin ? width : c.hmin, gap.mean);
   return m;
+}
+
+// What is looked at now and then only: energy of the deformed surfaces, deformation and film of bubble i
+
+struct Surfaces {
+  double energy = 0.0, Delta = 0.0, Ra = 0.0;
+};
+
+FOAM_FUNCTION Surfaces surfaces(const Collision &c, const Gap &gap, const Meeting &m)
+{
+  Surfaces s;
+  if (!m.closed) return s;
+  s.Delta = gap.wall ? m.overlap : 0.5 * m.overlap;
+  if (c.elastic == Elastic::SPRING) {
+    s.energy = (gap.wall ? 1.0 : 2.0) * spring_energy(c.sigma, s.Delta);
+  } else if (c.elastic == Elastic::QUADRATIC) {
+    if (!gap.wall) s.Delta = deformation(m.elastic / c.sigma, gap.Ri);
+    s.energy = elastic_energy(c.sigma, s.Delta, gap.Ri);
+    if (!gap.wall)
+      s.energy += elastic_energy(c.sigma, deformation(m.elastic / c.sigma, gap.Rj), gap.Rj);
+  }
+  s.Ra = gap.Ri * film_radius(s.Delta / gap.Ri);
+  return s;
 }
 
 // ---------------------------------------------------------------------- what is known of all of them
@@ -116,7 +147,8 @@ struct CollisionTotals {
   Foam::FoamSum closed;                                   // contacts
   Foam::FoamSum xx, yy, zz, xy, xz, yz;                   // sums of r f
   Foam::FoamMax most;                                     // contacts of a bubble
-  Foam::FoamMax closing;    // 1 / time in which a gap closes, as it does now
+  Foam::FoamMax closing;     // 1 / time in which a gap closes, as it does now
+  Foam::FoamMax friction;    // of a bubble in all its gaps: force per speed and volume
   FOAM_FUNCTION void join(const CollisionTotals &other)
   {
     energy.join(other.energy);
@@ -132,6 +164,7 @@ struct CollisionTotals {
     yz.join(other.yz);
     most.join(other.most);
     closing.join(other.closing);
+    friction.join(other.friction);
   }
 };
 
@@ -158,10 +191,10 @@ struct Looks {
   }
 };
 
-// One bubble and one partner: forces, power, and what is to be looked at.  half: the partner has the other half.
+// One bubble and one partner: the force, and, where TALLY, what is to be known of it.  half: the partner has the other
+// half.
 
-template <class B> struct Encounter {
-  B b;
+template <class B, bool TALLY> struct Encounter {
   Collision model;
   Looks looks;
   bool looked;
@@ -172,14 +205,28 @@ template <class B> struct Encounter {
                                    const double *u, double h_kept, double *force,
                                    CollisionTotals &all) const
   {
-    const double un = u[0] * n[0] + u[1] * n[1] + u[2] * n[2], half = gap.wall ? 1.0 : 0.5;
+    const double un = u[0] * n[0] + u[1] * n[1] + u[2] * n[2];
     const Meeting m = meet(model, gap, width, -un, h_kept);
-    const double push = m.elastic - (m.viscous + m.lubrication) * un;
+    const double push = m.elastic - (m.viscous + m.lubrication - m.sliding) * un;
+    for (int k = 0; k < 3; k++) force[k] = push * n[k] - m.sliding * u[k];
+    if (un < 0.0) all.closing.raise(-un / (width > m.h0 ? width : closed_scale(gap)));
+    if constexpr (TALLY) tally(i, gap, m, n, u, un, all);
+    return m;
+  }
+
+  // a film is no singularity: within a step the bubbles come closer by a part of this
+
+  FOAM_FUNCTION static double closed_scale(const Gap &gap) { return 0.1 * gap.mean; }
+
+  FOAM_FUNCTION void tally(int i, const Gap &gap, const Meeting &m, const double *n,
+                           const double *u, double un, CollisionTotals &all) const
+  {
+    const double half = gap.wall ? 1.0 : 0.5;
+    const Surfaces s = surfaces(model, gap, m);
     double slip = 0.0;
     for (int k = 0; k < 3; k++) {
       const double ut = u[k] - un * n[k];
       slip += ut * ut;
-      force[k] = push * n[k] - m.sliding * ut;
       if (looked) {
         looks.column[ELASTIC + k][i] += m.elastic * n[k];
         looks.column[VISCOUS + k][i] -= m.viscous * un * n[k];
@@ -187,25 +234,18 @@ template <class B> struct Encounter {
         looks.column[SLIDING + k][i] -= m.sliding * ut;
       }
     }
-    all.energy += half * m.energy;
+    all.energy += half * s.energy;
     all.viscous += -half * m.viscous * un * un;
     all.lubrication += -half * m.lubrication * un * un;
     all.sliding += -half * m.sliding * slip;
-    if (un < 0.0) all.closing.raise(-un / (width > m.h0 ? width : m.h0));
-    if (m.closed) {
-      all.closed += half;
-      if (looked) look(i, m, half);
-    }
-    return m;
-  }
-
-  FOAM_FUNCTION void look(int i, const Meeting &m, double half) const
-  {
+    if (!m.closed) return;
+    all.closed += half;
+    if (!looked) return;
     looks.column[CONTACTS][i] += 1.0;
-    looks.column[ENERGY][i] += half * m.energy;
-    if (looks.column[H0][i] > 0.0 && !(m.Delta > looks.column[DELTA][i])) return;
-    looks.column[DELTA][i] = m.Delta;
-    looks.column[RA][i] = m.Ra;
+    looks.column[ENERGY][i] += half * s.energy;
+    if (looks.column[H0][i] > 0.0 && !(s.Delta > looks.column[DELTA][i])) return;
+    looks.column[DELTA][i] = s.Delta;
+    looks.column[RA][i] = s.Ra;
     looks.column[H0][i] = m.h0;
   }
 };
@@ -226,6 +266,14 @@ struct Films {
     now.id(i) = static_cast<double>(id);
     now.count(i) = 0.0;
   }
+  FOAM_FUNCTION double widest(int i) const    // no contact has more
+  {
+    double h = 0.0;
+    if (!kept) return h;
+    for (int m = 0; m < before.count(i); m++)
+      if (before.value(i, m, 0) > h) h = before.value(i, m, 0);
+    return h;
+  }
   FOAM_FUNCTION double of(int i, LAMMPS_NS::tagint partner) const
   {
     if (!kept) return 0.0;
@@ -242,11 +290,11 @@ struct Films {
 
 // Pairs: each bubble has all its partners in its row of the list, and takes its own forces alone
 
-template <class B, class List> struct Collide {
+template <class B, class List, bool TALLY> struct Collide {
   static constexpr const char *NAME = "bubble: collide";
   B b;
   List list;
-  Encounter<B> encounter;
+  Encounter<B, TALLY> encounter;
   Films films;
   bool moves = true;      // adds the forces to those of LAMMPS
   double *virial[6]{};    // of each bubble, where it is asked for
@@ -257,49 +305,64 @@ template <class B, class List> struct Collide {
     const int i = row.i;
     if (films.done(i)) return;
     films.begin(i, b.tag(i));
-    if (encounter.looked) encounter.looks.clear(i);
-    double total[3] = {0.0, 0.0, 0.0};
+    if constexpr (TALLY)
+      if (encounter.looked) encounter.looks.clear(i);
+    double total[4] = {0.0, 0.0, 0.0, 0.0};    // force, and friction
+    const double widest = films.widest(i);
     CollisionTotals mine;
-    row.for_each([&](int j, auto) { pass(i, j, total, mine); });
+    row.for_each([&](int j, auto) { pass(i, j, widest, total, mine); });
 
     if (films.renewed) all.most.raise(films.now.count(i));
     if (!films.fit(i)) return;
     if (moves)
       for (int k = 0; k < 3; k++) b.f(i, k) += total[k];
-    const double v[6] = {mine.xx, mine.yy, mine.zz, mine.xy, mine.xz, mine.yz};
-    if (virial[0])
-      for (int k = 0; k < 6; k++) virial[k][i] = v[k];
-    all.join(mine);
+    all.closing.join(mine.closing);
+    all.friction.raise(total[3] / volume(b.radius(i)));
+    if constexpr (TALLY) {
+      const double v[6] = {mine.xx, mine.yy, mine.zz, mine.xy, mine.xz, mine.yz};
+      if (virial[0])
+        for (int k = 0; k < 6; k++) virial[k][i] = v[k];
+      all.join(mine);
+    }
   }
 
-  FOAM_FUNCTION void pass(int i, int j, double *total, CollisionTotals &mine) const
+  FOAM_FUNCTION void pass(int i, int j, double widest, double *total, CollisionTotals &mine) const
   {
-    const double Ri = b.radius(i), Rj = b.radius(j);
-    const Gap gap = Gap::to_bubble(Ri, Rj);
+    const Collision &model = encounter.model;
+    const double Ri = b.radius(i), Rj = b.radius(j), sum = Ri + Rj;
     double r[3], square = 0.0;
     for (int k = 0; k < 3; k++) {
       r[k] = b.x(i, k) - b.x(j, k);
       square += r[k] * r[k];
     }
-    const double reach = Ri + Rj + encounter.model.range(gap);
-    if (!(square < reach * reach) || !(square > 0.0)) return;    // coincident: no direction
+    const double most = sum + model.longest(sum);
+    if (!(square < most * most)) return;
 
-    const double distance = std::sqrt(square);
+    const Gap gap = Gap::to_bubble(Ri, Rj);
+    const double distance = std::sqrt(square), width = distance - sum;
+    if (!(width < model.range(gap))) return;
     double u[3], unit[3], force[3];
     for (int k = 0; k < 3; k++) {
       unit[k] = r[k] / distance;
       u[k] = b.v(i, k) - b.v(j, k);
     }
-    const Meeting m =
-        encounter(i, gap, distance - Ri - Rj, unit, u, films.of(i, b.tag(j)), force, mine);
+    if (!(distance > 0.0)) {    // coincident: apart along x
+      unit[0] = b.tag(i) > b.tag(j) ? 1.0 : -1.0;
+      unit[1] = unit[2] = 0.0;
+    }
+    const double h_kept = width < widest ? films.of(i, b.tag(j)) : 0.0;
+    const Meeting m = encounter(i, gap, width, unit, u, h_kept, force, mine);
     if (m.closed) films.keep(i, b.tag(j), m.h0);
     for (int k = 0; k < 3; k++) total[k] += force[k];
-    mine.xx += 0.5 * r[0] * force[0];
-    mine.yy += 0.5 * r[1] * force[1];
-    mine.zz += 0.5 * r[2] * force[2];
-    mine.xy += 0.5 * r[0] * force[1];
-    mine.xz += 0.5 * r[0] * force[2];
-    mine.yz += 0.5 * r[1] * force[2];
+    total[3] += m.viscous + m.lubrication + m.sliding;
+    if constexpr (TALLY) {
+      mine.xx += 0.5 * r[0] * force[0];
+      mine.yy += 0.5 * r[1] * force[1];
+      mine.zz += 0.5 * r[2] * force[2];
+      mine.xy += 0.5 * r[0] * force[1];
+      mine.xz += 0.5 * r[0] * force[2];
+      mine.yz += 0.5 * r[1] * force[2];
+    }
   }
 };
 
@@ -320,7 +383,7 @@ template <class B> struct MeetPlane {
   static constexpr const char *NAME = "bubble: meet plane";
   B b;
   double place[3], normal[3];
-  Encounter<B> encounter;
+  Encounter<B, true> encounter;
   Films films;
   bool moves = true;
 
@@ -344,6 +407,7 @@ template <class B> struct MeetPlane {
     double force[3];
     const Meeting m = encounter(i, gap, width, unit, u, films.of(i, id), force, all);
     if (m.closed) films.keep(i, id, m.h0);
+    all.friction.raise((m.viscous + m.lubrication + m.sliding) / volume(gap.Ri));
     if (!moves) return;
     for (int k = 0; k < 3; k++) b.f(i, k) += force[k];
     all.fx += -force[0];

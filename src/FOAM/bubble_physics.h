@@ -97,9 +97,14 @@ FOAM_FUNCTION double deformation(double force, double R)    // force / sigma
 // Thickness at which the pressure in the gap reaches that in the (larger) bubble: h0^2 = (3/8) mu u R* R_> / sigma;
 // [H17] eq. 14 for a wall and for equal bubbles
 
+FOAM_FUNCTION double film_thickness_squared(double sigma, double mu, double u, const Gap &gap)
+{
+  return 0.375 * mu * u * gap.reduced * gap.larger / sigma;    // < 0 where surfaces part: no film
+}
+
 FOAM_FUNCTION double film_thickness(double sigma, double mu, double u, const Gap &gap)
 {
-  return u > 0.0 ? std::sqrt(0.375 * mu * u * gap.reduced * gap.larger / sigma) : 0.0;
+  return u > 0.0 ? std::sqrt(film_thickness_squared(sigma, mu, u, gap)) : 0.0;
 }
 
 // Radius of the flat film over that of the bubble; [H17] eq. 10, solved for it

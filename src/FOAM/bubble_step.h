@@ -26,8 +26,15 @@
 namespace Bubble {
 
 struct StepTotals {
-  Foam::FoamMax error;    // h |d| / R
-  FOAM_FUNCTION void join(const StepTotals &other) { error.join(other.error); }
+  Foam::FoamMax error;        // h |d| / R
+  Foam::FoamMax rate;         // |v| / R
+  Foam::FoamMax lightness;    // volume / effective mass
+  FOAM_FUNCTION void join(const StepTotals &other)
+  {
+    error.join(other.error);
+    rate.join(other.rate);
+    lightness.join(other.lightness);
+  }
 };
 
 struct StepColumns {
@@ -65,9 +72,9 @@ template <class B> struct Finish {
   double h;
   FOAM_FUNCTION void operator()(int i, StepTotals &all) const
   {
-    const double half = 0.5 * h / effective_mass(liquid, mass(i), b.radius(i));
+    const double R = b.radius(i), m = effective_mass(liquid, mass(i), R), half = 0.5 * h / m;
     const double part = stiffness ? 1.0 / (1.0 + half * stiffness[i]) : 1.0;
-    double square = 0.0;
+    double square = 0.0, speed = 0.0;
     for (int k = 0; k < 3; k++) {
       const double d = part * (half * b.f(i, k) - s.kick[k][i]);
       s.predicted[k][i] = b.v(i, k);
@@ -75,8 +82,11 @@ template <class B> struct Finish {
       s.end[k][i] = b.v(i, k);
       if (stiffness) b.f(i, k) -= stiffness[i] * d;    // the drag at v'
       square += d * d;
+      speed += b.v(i, k) * b.v(i, k);
     }
-    all.error.raise(h * std::sqrt(square) / b.radius(i));
+    all.error.raise(h * std::sqrt(square) / R);
+    all.rate.raise(std::sqrt(speed) / R);
+    all.lightness.raise(volume(R) / m);
   }
 };
 

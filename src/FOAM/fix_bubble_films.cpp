@@ -18,6 +18,11 @@ FixBubbleFilms::FixBubbleFilms(LAMMPS *lmp, int narg, char **arg)
   keep_records();
 }
 
+FixBubbleFilms::FixBubbleFilms(LAMMPS *lmp, int narg, char **arg, Derived)
+    : FixFoamRecords(lmp, narg, arg, 1)
+{
+}
+
 int FixBubbleFilms::setmask()
 {
   return PRE_EXCHANGE | MIN_PRE_EXCHANGE;

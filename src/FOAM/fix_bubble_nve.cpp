@@ -71,7 +71,8 @@ FixBubbleNVE::~FixBubbleNVE()
 
 int FixBubbleNVE::setmask()
 {
-  return INITIAL_INTEGRATE | FINAL_INTEGRATE | END_OF_STEP;
+  return INITIAL_INTEGRATE | FINAL_INTEGRATE | END_OF_STEP |
+         PRE_EXCHANGE;    // the latter for set-up
 }
 
 void FixBubbleNVE::init()
@@ -167,6 +168,7 @@ void FixBubbleNVE::end_of_step()
 void FixBubbleNVE::set_timestep(double step)
 {
   h = step;
+  shortest = shortest > 0.0 ? std::min(shortest, step) : step;
   if (update->dt == step) return;
   update->update_time();
   update->dt = step;
@@ -176,23 +178,35 @@ void FixBubbleNVE::set_timestep(double step)
   output->reset_dt();
 }
 
-// The error of a step, h |d| / R, goes with its third power.  No gap closes within a step: forces grow as it does.
+// The error of a step, h |d| / R, goes with its third power.  Steps are not tried again, so that none may come upon
+// forces that it has not seen: no bubble goes further than a part of its radius, no gap closes by more than a part of
+// itself.  And friction between bubbles and with walls is explicit: stable for h Gamma < 2, pairs have twice the Gamma.
 
 double FixBubbleNVE::next_step()
 {
-  constexpr double SAFETY = 0.9, GROW = 1.3, SHRINK = 0.3, CLOSE = 0.2;
-  double mine[2] = {totals.error, pair ? double(pair->of_this_rank().closing) : 0.0}, all[2];
+  constexpr double SAFETY = 0.9, GROW = 1.3, SHRINK = 0.3, CLOSE = 0.2, FAR = 0.1, STABLE = 0.8;
+  double friction = 0.0, closing = 0.0;
+  auto meets = [&](const Bubble::CollisionTotals &its) {
+    closing = std::max(closing, double(its.closing));
+    friction += its.friction;
+  };
+  if (pair) meets(pair->of_this_rank());
   for (auto &fix : modify->get_fix_list())
-    if (auto *wall = dynamic_cast<FixWallBubble *>(fix))
-      mine[1] = std::max(mine[1], double(wall->of_this_rank().closing));
-  MPI_Allreduce(mine, all, 2, MPI_DOUBLE, MPI_MAX, world);
+    if (auto *wall = dynamic_cast<FixWallBubble *>(fix)) meets(wall->of_this_rank());
+  double mine[] = {totals.error, totals.rate, totals.lightness, closing, friction}, all[5];
+  MPI_Allreduce(mine, all, 5, MPI_DOUBLE, MPI_MAX, world);
+
   error_last = all[0];
   error_worst = std::max(error_worst, error_last);
   const double factor = error_last > 0.0 ? SAFETY * std::cbrt(tolerance / error_last) : GROW;
   double step = update->dt * std::clamp(factor, SHRINK, GROW);
-  if (all[1] > 0.0) step = std::min(step, CLOSE / all[1]);
+  auto limit = [&](double part, double rate) {
+    if (rate > 0.0) step = std::min(step, part / rate);
+  };
+  limit(FAR, all[1]);
+  limit(CLOSE, all[3]);
+  limit(STABLE, all[2] * all[4]);
   if (longest > 0.0) step = std::min(step, longest);
-  shortest = shortest > 0.0 ? std::min(shortest, step) : step;
   if (!std::isfinite(error_last) || !(update->atime + step > update->atime))
     error->all(FLERR,
                "Fix bubble/nve: the step fell to {} at step {}, with error {}: look for bad forces",
@@ -203,9 +217,10 @@ double FixBubbleNVE::next_step()
 void FixBubbleNVE::post_run()
 {
   if (!(tolerance > 0.0)) return;
-  const double next = h;
+  const double next = h, least = shortest;
   set_timestep(dt_given);
   h = next;
+  shortest = least;
 }
 
 double FixBubbleNVE::compute_vector(int n)

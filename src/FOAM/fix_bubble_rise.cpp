@@ -21,6 +21,7 @@
 #include "update.h"
 #include "variable.h"
 
+#include <algorithm>
 #include <cmath>
 
 using namespace LAMMPS_NS;
@@ -80,7 +81,7 @@ FixBubbleRise *FixBubbleRise::of(LAMMPS *lmp)
 
 int FixBubbleRise::setmask()
 {
-  return POST_FORCE;
+  return POST_FORCE | PRE_REVERSE;    // the latter for set-up
 }
 
 void FixBubbleRise::init()
@@ -145,7 +146,10 @@ void FixBubbleRise::act()
   take_flow();
   FoamHost space(lmp, groupbit);
   auto rise = functor(space);
-  if (implicit) rise.stiffness = space.column(columns, STIFFNESS);
+  if (implicit) {
+    rise.stiffness = space.column(columns, STIFFNESS);
+    std::fill_n(rise.stiffness, atom->nlocal, 0.0);    // of those outside of the group, too
+  }
   totals = space.totals<Bubble::LiquidTotals>(atom->nlocal, rise);
   reduced = false;
 }

@@ -18,6 +18,7 @@ using namespace LAMMPS_NS;
 FixFoamRecords::FixFoamRecords(LAMMPS *lmp, int narg, char **arg, int values_of_a_contact)
     : Fix(lmp, narg, arg), history(all_columns, values_of_a_contact)
 {
+  size_peratom_cols = 0;
   restart_peratom = 1;
   create_attribute = 1;
   maxexchange = exchange_foreseen = history.most();

@@ -30,7 +30,8 @@ using namespace FixConst;
    fix ID group-ID wall/bubble region ID keyword value ...
 ------------------------------------------------------------------------- */
 
-FixWallBubble::FixWallBubble(LAMMPS *lmp, int narg, char **arg) : FixBubbleFilms(lmp, narg, arg)
+FixWallBubble::FixWallBubble(LAMMPS *lmp, int narg, char **arg)
+    : FixBubbleFilms(lmp, narg, arg, Derived())
 {
   FoamInput input(error, "Fix wall/bubble", narg - 3, arg + 3);
   int used = 3;
@@ -59,6 +60,7 @@ FixWallBubble::FixWallBubble(LAMMPS *lmp, int narg, char **arg) : FixBubbleFilms
   global_freq = 1;
   energy_global_flag = 1;
   restart_global = 1;
+  keep_records();
 }
 
 // the model of the pair style with what the keywords say; without a pair style yet, to look at the words only
@@ -83,7 +85,7 @@ void FixWallBubble::take_model()
 
 int FixWallBubble::setmask()
 {
-  return POST_FORCE | PRE_EXCHANGE | MIN_PRE_EXCHANGE;
+  return POST_FORCE | PRE_REVERSE | PRE_EXCHANGE | MIN_PRE_EXCHANGE;    // PRE_REVERSE: for set-up
 }
 
 void FixWallBubble::init()
@@ -150,7 +152,7 @@ template <class Space> Bubble::MeetPlane<typename Space::Bubbles> FixWallBubble:
   return {space.bubbles(),
           {place[0], place[1], place[2]},
           {normal[0], normal[1], normal[2]},
-          {space.bubbles(), model, {}, false},
+          {model, {}, false},
           {}};
 }
 
@@ -201,8 +203,8 @@ void FixWallBubble::reduce()
 {
   if (reduced) return;
   double mine[ALL] = {totals.fx,      totals.fy,          totals.fz,      totals.closed,
-                            totals.viscous, totals.lubrication, totals.sliding, losses.sum[0],
-                            losses.sum[1],  losses.sum[2],      totals.energy};
+                      totals.viscous, totals.lubrication, totals.sliding, losses.sum[0],
+                      losses.sum[1],  losses.sum[2],      totals.energy};
   MPI_Allreduce(mine, all, ALL, MPI_DOUBLE, MPI_SUM, world);
   reduced = true;
 }

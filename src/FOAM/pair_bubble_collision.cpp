@@ -168,13 +168,22 @@ void PairBubbleCollision::compute(int eflag, int vflag)
   if (vflag_atom) stress.use(atom->nmax);
 
   FoamHost space(lmp);
-  auto functor = loop(space, eflag_atom);
+  if (evflag)
+    collide<true>(space);
+  else
+    collide<false>(space);
+  if (evflag) take_totals();
+}
+
+template <bool TALLY, class Space> void PairBubbleCollision::collide(Space &space)
+{
+  auto functor = loop<TALLY>(space, eflag_atom);
   if (vflag_atom)
     for (int k = 0; k < 6; k++) functor.virial[k] = space.column(stress, k);
   totals = Bubble::CollisionTotals();
   auto run = [&](const Bubble::Films &its) {
     functor.films = its;
-    const auto found = space.totals<Bubble::CollisionTotals>(list->inum, functor);
+    const auto found = space.template totals<Bubble::CollisionTotals>(list->inum, functor);
     totals.join(found);
     return static_cast<int>(found.most);
   };
@@ -182,14 +191,13 @@ void PairBubbleCollision::compute(int eflag, int vflag)
     films->evaluate(space, atom->nmax, run);
   else
     run({});
-  take_totals();
 }
 
 FoamColumns &PairBubbleCollision::look()
 {
   looks.use(atom->nmax);
   FoamHost space(lmp);
-  auto functor = loop(space, true);
+  auto functor = loop<true>(space, true);
   functor.moves = false;
   if (films) functor.films = films->now(space);
   space.totals<Bubble::CollisionTotals>(list->inum, functor);

@@ -70,19 +70,20 @@ class PairBubbleCollision : public Pair {
   void allocate();
   void check_radii();
   void take_totals();
-  template <class Space> auto loop(Space &space, bool looked);
+  template <bool TALLY, class Space> auto loop(Space &space, bool looked);
+  template <bool TALLY, class Space> void collide(Space &space);
 };
 
-template <class Space> auto PairBubbleCollision::loop(Space &space, bool looked)
+template <bool TALLY, class Space> auto PairBubbleCollision::loop(Space &space, bool looked)
 {
   using List = FoamHalfList<true>;
   Bubble::Looks terms;
   if (looked)
     for (int k = 0; k < Bubble::LOOKS; k++) terms.column[k] = space.column(looks, k);
-  return Bubble::Collide<typename Space::Bubbles, List>{
+  return Bubble::Collide<typename Space::Bubbles, List, TALLY>{
       space.bubbles(),
       {list->ilist, list->numneigh, list->firstneigh, atom->nlocal},
-      {space.bubbles(), model, terms, looked},
+      {model, terms, looked},
       {}};
 }
 
