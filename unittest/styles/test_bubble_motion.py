@@ -6,7 +6,7 @@ from scipy.integrate import solve_ivp
 from scipy.interpolate import CubicHermiteSpline
 from scipy.optimize import brentq
 
-from test_bubble import GAS, MM, MU, R6, RHO, SETUP, SIGMA, UM, G, data, elastic, term, text, wrong
+from test_bubble import GAS, MM, MU, R6, RHO, SIGMA, UM, G, data, elastic, term, text, wrong
 
 LIQUID = f"{RHO} {MU} 0 0 -{G}"    # and upwards for bubbles
 STILL = f"{RHO} {MU} 0 0 0 drag none"
@@ -15,8 +15,6 @@ STILL = f"{RHO} {MU} 0 0 0 drag none"
 SOFT = wrong("eq. 9 at Delta = R has 7.2 sigma R^2, less than the kinetic energy: the centres pass each other")
 JUMP = wrong("a step in which a film closes is not done again: its error is 100 tol, paths do not follow tol")
 MOVING = wrong("h0 current, film yes: as h0 follows the speed it works on the surfaces; no term tells of that")
-ENDLESS = wrong("without dtmax the step grows without end where nothing pushes: bubbles fly out of the box in one")
-JITTER = wrong("explicit friction of the film: the step stays at the border of stability, the force swings by 10 %")
 LAST_DIGIT = wrong("implicit: setup() takes a difference of rounded velocities for d: forces differ in the last digit")
 
 
@@ -55,7 +53,6 @@ def last(result):
     return frame.array("x", "y", "z"), frame.array("vx", "vy", "vz")
 
 
-@SETUP
 # ---- a free rise --------------------------------------------------------------------------------
 
 @pytest.mark.parametrize("implicit", ["no", "yes"])
@@ -149,7 +146,6 @@ def test_budget_of_a_bounce(lmp, name, implicit):
     assert min(t[f"f_w[{k}]"].min() for k in (8, 9, 10)) >= 0.0
 
 
-@SETUP
 def test_order_of_a_bounce(lmp):
     """Of second order where the force has no jump."""
     pair = "h0 1e-5 viscous none lubrication no tangential none"
@@ -159,7 +155,6 @@ def test_order_of_a_bounce(lmp):
     assert errors[1] / errors[2] == pytest.approx(4.0, rel=0.2)
 
 
-@SETUP
 def test_convergence_with_films(lmp):
     """The film's friction begins with a jump, at a moment within a step: the first order at least."""
     for pair in "h0 1e-5 lubrication no", "":
@@ -302,7 +297,7 @@ def at(frames, times):
 @pytest.mark.parametrize("more", ["implicit no", "implicit yes"])
 @pytest.mark.parametrize("pair", [pytest.param("", marks=JUMP), pytest.param("viscous derived", marks=JUMP),
                                   pytest.param("viscous none", marks=JUMP),
-                                  pytest.param("elastic spring viscous none lubrication no", marks=SETUP)])
+                                  "elastic spring viscous none lubrication no"])
 def test_error_falls_with_tol(lmp, pair, more):
     """A step's error goes with its third power, a path's with the second: 10^(-2/3) for each decade of tol."""
     times = np.linspace(0, 7e-3, 50)
@@ -354,7 +349,7 @@ def test_head_on(lmp, R, scene, model):
         assert all(frame["z"][1] > frame["z"][0] for frame in frames)
 
 
-@pytest.mark.parametrize("R", [pytest.param(0.05 * MM, marks=JITTER), pytest.param(R6, marks=SETUP), 3 * MM])
+@pytest.mark.parametrize("R", [0.05 * MM, R6, 3 * MM])
 def test_rests_under_a_lid(lmp, R):
     """It comes to rest where the force of eq. 9 is that of buoyancy, and stays. 1e-2: what tol lets pass, in R."""
     lines = text(pair="", wall=f"plane 0 0 {1.01 * R} 0 0 -1", rise=LIQUID, dt=1e-6, every=1000, skin=R,
@@ -367,7 +362,6 @@ def test_rests_under_a_lid(lmp, R):
     assert elastic(h0 - (1.01 * R - z - R), R) == pytest.approx(buoyancy(R), rel=1e-2)
 
 
-@ENDLESS
 def test_free_flight(lmp):
     """Nothing pushes: the error of a step is 0."""
     x, v = last(lmp(text(rise=STILL, step="fix s all bubble/nve tol 1e-5", every=100, run="run 500"),
@@ -384,7 +378,6 @@ def test_coincident_centres(lmp):
     assert frames[0]["fz"][2] > buoyancy(R6)
 
 
-@SETUP
 @pytest.mark.parametrize("gap", [0.5, 0.0, -5.0, -30.0])
 def test_starts_within_a_film(lmp, gap):
     """At rest with a gap below h0, in 10 micrometres: the energy of the film is all there is to come."""
@@ -463,7 +456,6 @@ def assert_goes_on(whole, rest):
     assert max(frame["c_c[22]"].max() for frame in theirs.values()) >= 1    # films in mid-contact
 
 
-@SETUP
 @pytest.mark.parametrize("ranks", [1, 2])
 @pytest.mark.parametrize("name", [pytest.param(name, marks=LAST_DIGIT if name in ("implicit", "exact") else ())
                                   for name in CUTS])
@@ -475,7 +467,6 @@ def test_restart(bitwise_lmp, name, ranks):
     assert_same_sums(again.thermo[0], whole.thermo[0], 1e-12 if ranks > 1 else 0)    # what all ranks have lost so far
 
 
-@SETUP
 @pytest.mark.parametrize("name", [pytest.param(name, marks=LAST_DIGIT if name == "exact" else ()) for name in CUTS])
 def test_two_runs(bitwise_lmp, name):
     whole = bitwise_lmp(crowded("run 200", after=REBUILD, **CUTS[name]), crowd(30))
