@@ -49,8 +49,9 @@ struct Collision {
   }
   FOAM_FUNCTION double longest(double sum) const    // for all pairs with this sum of radii
   {
-    const double far = 0.5 * reach * sum, film = h0 > hmin ? h0 : hmin;
-    return far > film ? far : film;
+    const double far = slides && reach < 1.0 ? 1.0 : reach;    // sliding ends at R
+    const double end = 0.5 * far * sum, film = h0 > hmin ? h0 : hmin;
+    return end > film ? end : film;
   }
 };
 

@@ -77,10 +77,10 @@ template <class B> struct Finish {
     double square = 0.0, speed = 0.0;
     for (int k = 0; k < 3; k++) {
       const double d = part * (half * b.f(i, k) - s.kick[k][i]);
-      s.predicted[k][i] = b.v(i, k);
-      b.v(i, k) += d;
-      s.end[k][i] = b.v(i, k);
-      if (stiffness) b.f(i, k) -= stiffness[i] * d;    // the drag at v'
+      const double predicted = b.v(i, k), end = predicted + d;
+      s.predicted[k][i] = predicted;
+      s.end[k][i] = b.v(i, k) = end;
+      if (stiffness) b.f(i, k) -= stiffness[i] * (end - predicted);    // the drag at v'
       square += d * d;
       speed += b.v(i, k) * b.v(i, k);
     }

@@ -5,7 +5,9 @@ test_bubble_motion.py.  The formulae one by one: physics/test_bubble.cpp."""
 import numpy as np
 import pytest
 
-from runner import PRECISE, data_file
+from runner import BACKENDS, PLAIN, PRECISE, Runner, data_file
+
+HOSTS = [name for name in PLAIN if not BACKENDS[name].kokkos]    # there are no KOKKOS styles yet
 
 SIGMA, MU, RHO, G, GAS = 0.03, 1e-3, 1000.0, 9.81, 1.2    # water with soap
 MM, UM = 1e-3, 1e-6
@@ -23,6 +25,16 @@ read_data    data
 set          group all density {density}
 neighbor     {skin} bin
 """
+@pytest.fixture(params=HOSTS)
+def lmp(request, tmp_path):
+    return Runner(request.param, tmp_path)
+
+
+@pytest.fixture(params=HOSTS)
+def bitwise_lmp(request, tmp_path):
+    return Runner(request.param, tmp_path)
+
+
 def wrong(why):
     return pytest.mark.xfail(strict=True, reason=why)
 
@@ -220,7 +232,6 @@ def test_range_holds_the_film(lmp, where, model):
     assert np.all(np.abs(frame["fz"]) > 0)
 
 
-@wrong("Collision::range() ends sliding, too")
 @pytest.mark.parametrize("reach", [0.1, 0.5])
 def test_sliding_is_off_at_its_own_distance(lmp, reach):
     """Eq. 19: at a gap of R; the reach is that of lubrication."""

@@ -6,6 +6,7 @@ from scipy.integrate import solve_ivp
 from scipy.interpolate import CubicHermiteSpline
 from scipy.optimize import brentq
 
+from test_bubble import bitwise_lmp, lmp    # noqa: F401  (fixtures)
 from test_bubble import GAS, MM, MU, R6, RHO, SIGMA, UM, G, data, elastic, term, text, wrong
 
 LIQUID = f"{RHO} {MU} 0 0 -{G}"    # and upwards for bubbles
@@ -15,7 +16,6 @@ STILL = f"{RHO} {MU} 0 0 0 drag none"
 SOFT = wrong("eq. 9 at Delta = R has 7.2 sigma R^2, less than the kinetic energy: the centres pass each other")
 JUMP = wrong("a step in which a film closes is not done again: its error is 100 tol, paths do not follow tol")
 MOVING = wrong("h0 current, film yes: as h0 follows the speed it works on the surfaces; no term tells of that")
-LAST_DIGIT = wrong("implicit: setup() takes a difference of rounded velocities for d: forces differ in the last digit")
 
 
 def volume(R):
@@ -457,8 +457,7 @@ def assert_goes_on(whole, rest):
 
 
 @pytest.mark.parametrize("ranks", [1, 2])
-@pytest.mark.parametrize("name", [pytest.param(name, marks=LAST_DIGIT if name in ("implicit", "exact") else ())
-                                  for name in CUTS])
+@pytest.mark.parametrize("name", CUTS)
 def test_restart(bitwise_lmp, name, ranks):
     whole = bitwise_lmp(crowded("run 200", after=REBUILD, **CUTS[name]), crowd(30), ranks=ranks)
     again = crowded("run 100", after=REBUILD, **CUTS[name]).replace(f"set          group all density {GAS}", "")
@@ -467,7 +466,7 @@ def test_restart(bitwise_lmp, name, ranks):
     assert_same_sums(again.thermo[0], whole.thermo[0], 1e-12 if ranks > 1 else 0)    # what all ranks have lost so far
 
 
-@pytest.mark.parametrize("name", [pytest.param(name, marks=LAST_DIGIT if name == "exact" else ()) for name in CUTS])
+@pytest.mark.parametrize("name", CUTS)
 def test_two_runs(bitwise_lmp, name):
     whole = bitwise_lmp(crowded("run 200", after=REBUILD, **CUTS[name]), crowd(30))
     cut = bitwise_lmp(crowded("run 100\nrun 100", after=REBUILD, **CUTS[name]), crowd(30))
