@@ -11,15 +11,14 @@
 
 #include "foam_host.h"
 #include "foam_input.h"
+#include "foam_variable.h"
 
 #include "atom.h"
 #include "comm.h"
 #include "error.h"
 #include "force.h"
-#include "input.h"
 #include "modify.h"
 #include "update.h"
-#include "variable.h"
 
 #include <algorithm>
 #include <cmath>
@@ -92,11 +91,7 @@ void FixBubbleRise::init()
   for (auto &fix : modify->get_fix_list()) others += dynamic_cast<FixBubbleRise *>(fix) ? 1 : 0;
   if (others > 1) error->all(FLERR, "Fix bubble/rise: there can be one liquid, not {}", others);
   for (int k = 0; k < 3; k++) {
-    if (flow[k].empty()) continue;
-    variable[k] = input->variable->find(flow[k].c_str());
-    if (variable[k] < 0) error->all(FLERR, "Fix bubble/rise: there is no variable {}", flow[k]);
-    if (!input->variable->atomstyle(variable[k]))
-      error->all(FLERR, "Fix bubble/rise: variable {} must be of style atom", flow[k]);
+    if (!flow[k].empty()) check_atom_variable(lmp, "bubble/rise", flow[k]);
   }
 }
 
@@ -128,7 +123,7 @@ void FixBubbleRise::take_flow()
   if (!flows) return;
   modify->clearstep_compute();
   for (int k = 0; k < 3; k++)
-    if (variable[k] >= 0) input->variable->compute_atom(variable[k], igroup, columns[VX + k], 1, 0);
+    if (!flow[k].empty()) take_atom_variable(lmp, "bubble/rise", flow[k], igroup, columns[VX + k]);
   modify->addstep_compute(update->ntimestep + 1);
 }
 

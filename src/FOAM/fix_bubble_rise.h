@@ -55,7 +55,6 @@ class FixBubbleRise : public Fix {
 
  private:
   std::string flow[3];    // variables of style atom
-  int variable[3] = {-1, -1, -1};
   bool flows = false;
   Bubble::LiquidTotals totals;                            // of this rank
   double work[2] = {0.0, 0.0}, before[2] = {0.0, 0.0};    // by buoyancy and drag; powers

@@ -9,12 +9,13 @@
 
 #include "fix_foam_flow.h"
 
+#include "foam_variable.h"
+
 #include "foam_input.h"
 
 #include "comm.h"
 #include "error.h"
 #include "group.h"
-#include "library.h"
 #include "modify.h"
 #include "region.h"
 #include "update.h"
@@ -85,14 +86,8 @@ void FixFoamFlow::init()
       error->all(FLERR, "Fix foam/flow: touch yes needs a region without open faces, which {} has",
                  FoamInput::shown(region_id));
   }
-  for (int k = 0; k < 3; k++) {
-    if (variable_name[k].empty()) continue;
-    const int type = lammps_extract_variable_datatype(lmp, variable_name[k].c_str());
-    if (type != LMP_VAR_ATOM)
-      error->all(FLERR, "Fix foam/flow: v_{} must be an atom-style variable: {}",
-                 FoamInput::shown(variable_name[k]),
-                 type < 0 ? "there is none of this name" : "this is one of another style");
-  }
+  for (const std::string &name : variable_name)
+    if (!name.empty()) check_atom_variable(lmp, "foam/flow", name);
 }
 
 void FixFoamFlow::check_foam()
@@ -158,8 +153,6 @@ void FixFoamFlow::fill_region(FoamColumns &u)
   }
 }
 
-// By LAMMPS' library: an installed LAMMPS lacks a header that variable.h includes
-
 void FixFoamFlow::fill_field(FoamColumns &u)
 {
   const int n = atom->nlocal;
@@ -171,21 +164,7 @@ void FixFoamFlow::fill_field(FoamColumns &u)
         if (atom->mask[i] & groupbit) columns[k][i] = 0.0;
       continue;
     }
-    auto *const values = static_cast<double *>(
-        lammps_extract_variable(lmp, variable_name[k].c_str(), group->names[igroup]));
-    if (!values && n > 0) {
-      char why[256] = "";
-      if (lammps_has_error(lmp)) lammps_get_last_error_message(lmp, why, sizeof(why));
-      error->one(FLERR, "Fix foam/flow: v_{} has no values: {}", variable_name[k], why);
-    }
-    for (int i = 0; i < n; i++) {
-      if (!(atom->mask[i] & groupbit)) continue;
-      if (!std::isfinite(values[i]))
-        error->one(FLERR, "Fix foam/flow: v_{} is no finite number at bubble {}, x = {} {} {}",
-                   variable_name[k], atom->tag[i], atom->x[i][0], atom->x[i][1], atom->x[i][2]);
-      columns[k][i] = values[i];
-    }
-    lammps_free(values);
+    take_atom_variable(lmp, "foam/flow", variable_name[k], igroup, columns[k]);
   }
   modify->addstep_compute(update->ntimestep + 1);
 }

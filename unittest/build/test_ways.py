@@ -47,7 +47,8 @@ def test_sources_in_lammps_tree(tmp_path):
         cmake("--build", build)
         check_styles(tmp_path, build / "lmp")
     compile_files(build, [tree / "src" / f"{name}.cpp" for name in OURS])
-    assert sorted(p.name for p in build.rglob("*foam*.o")) == [f"{name}.cpp.o" for name in OURS]
+    built = {p.name for p in build.rglob("*.o")}
+    assert not [name for name in OURS if f"{name}.cpp.o" not in built]
 
 
 @pytest.mark.parametrize("package, marker, where, file", [

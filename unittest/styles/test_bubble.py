@@ -291,8 +291,8 @@ def test_bad_input(base_lmp, style, words):
     lines = lines[:at] + [command.format(words), "pair_coeff * *", "run 1"]
     result = base_lmp("\n".join(lines) + "\n", data([0, 0, 0], R6), check=False)
     assert result.returncode > 0 and result.errors, result.screen[-1000:]
-    for said in (style[1:], *cases[words]):
-        assert said in result.errors[0], result.errors[0]
+    for said in (style[1:], *cases[words]):    # LAMMPS' library tells of a missing variable before we do
+        assert said in result.errors[-1], result.errors
 
 
 MISFITS = {
