@@ -272,7 +272,7 @@ BAD = {
         "1 1 0 0 1 added -1": ("added", ">= 0", "-1"), "1 1 0 0 1 drag": ("drag", "needs a value"),
         "1 1 0 0 1 drag yes": ("drag", "none or contaminated or clean", "yes"),
         "1 1 0 0 1 implicit 1": ("implicit", "no or yes", "1"), "1 1 0 0 1 flow 1 2 3": ("flow", "v_NAME", "1"),
-        "1 1 0 0 1 flow NULL NULL": ("v_uz", "v_NAME"), "1 1 0 0 1 flow v_none 0 0": ("no variable none",),
+        "1 1 0 0 1 flow NULL NULL": ("v_uz", "v_NAME"), "1 1 0 0 1 flow v_none 0 0": ("there is none of this name",),
         "1 1 0 0 1 colour": ("colour", "added, drag, implicit, flow")}),
     "Fix bubble/nve": ("fix s all bubble/nve {}", {
         "tol": ("tol", "needs a value"), "tol 0": ("tol", "> 0", "0"), "dtmax -1": ("dtmax", "> 0", "-1"),
