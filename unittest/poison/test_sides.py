@@ -64,6 +64,8 @@ def test_all_columns_are_here():
     """Those that the sources declare."""
     declared = set()
     for path in (Path(os.environ["FOAM_SOURCE_DIR"]) / "src").rglob("*.h"):
+        if "_bubble_" in path.stem:    # bubbles with inertia have no KOKKOS styles yet
+            continue
         declared |= set(re.findall(r'FoamColumns \w+\{all_columns, "([^"]*)"', path.read_text()))
     assert declared == COLUMNS.keys() | ELSEWHERE
 
