@@ -62,8 +62,8 @@ class FixFoamContacts : public FixFoamRecords, public FoamFollower {
  private:
   class NeighList *list = nullptr;    // of its own, or that of the pair style
   bool list_of_pair = true;
-  bool tries = false;    // in attempts, too
-  bool is_shown = false;       // the present state
+  bool tries = false;       // in attempts, too
+  bool is_shown = false;    // the present state
 
   bool started = false;                     // kept in restarts, with:
   double at_first = 0.0;                    // contacts when this fix began
