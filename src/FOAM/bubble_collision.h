@@ -261,6 +261,7 @@ struct Films {
   int again = 0;           // > 0: for bubbles alone that had more contacts than this
   FOAM_FUNCTION bool done(int i) const { return again > 0 && now.count(i) <= again; }
   FOAM_FUNCTION bool fit(int i) const { return !renewed || now.count(i) <= now.slots; }
+  FOAM_FUNCTION bool has_room(int i) const { return !renewed || now.count(i) < now.slots; }
   FOAM_FUNCTION void begin(int i, LAMMPS_NS::tagint id) const
   {
     if (!renewed) return;
@@ -407,7 +408,8 @@ template <class B> struct MeetPlane {
     if (!(width < encounter.model.range(gap))) return;
     double force[3];
     const Meeting m = encounter(i, gap, width, unit, u, films.of(i, id), force, all);
-    if (m.closed) films.keep(i, id, m.h0);
+    if (m.closed && films.has_room(i))
+      films.keep(i, id, m.h0);    // surfaces of a region: not so many
     all.friction.raise((m.viscous + m.lubrication + m.sliding) / volume(gap.Ri));
     if (!moves) return;
     for (int k = 0; k < 3; k++) b.f(i, k) += force[k];
