@@ -5,7 +5,12 @@
 
 Written from the equations of Heitkam et al., J. Phys.: Condens. Matter 29, 124005 (2017), and not from the styles: it
 shares no code with them. Radau's method with tight tolerances; the film closes and opens, and forces begin and end, at
-events, so that every piece that is integrated is smooth. The fit of the film's integral alone (`integral fit`).
+events, so that every piece that is integrated is smooth.
+
+With `h0 current` a film that closes may slow the bubble so much that h0 falls below the gap at once. The film opens,
+the bubble gains speed, the film closes, and so on: in the limit of short steps on the line gap = h0(speed). The bubble
+then creeps: its speed is that of the line, as Filippov defines solutions of equations with a jump, until the forces of
+the open or of the closed film lead away from the line.
 
 State: distance of the centre from the wall, place along it, and their rates; SI units.
 """
@@ -14,7 +19,9 @@ from __future__ import annotations
 import argparse
 import csv
 from collections.abc import Callable, Sequence
-from dataclasses import asdict, dataclass, fields
+from dataclasses import asdict, dataclass, fields, replace
+from enum import Enum
+from functools import lru_cache
 import json
 import math
 from pathlib import Path
@@ -23,7 +30,8 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.integrate import solve_ivp
+from scipy.integrate import quad, solve_ivp
+from scipy.interpolate import CubicSpline
 
 Array = NDArray[np.float64]
 PI = np.pi
@@ -39,8 +47,9 @@ class Bounce:
     tangential: str = "yes"
     lubrication: str = "yes"
     elastic: str = "quadratic"     # quadratic | spring | none
-    h0: str = "contact"            # contact | current
+    h0: str = "contact"            # contact | current | VALUE
     hmin: float = 1.0e-5
+    integral: str = "fit"          # fit | exact, the latter not with h0 current
     drag: str = "contaminated"     # contaminated | clean | none
     sigma: float = 0.03
     mu: float = 1.0e-3
@@ -72,8 +81,11 @@ def drag_coefficient(b: Bounce, speed: float) -> float:
 
 
 def film_at(b: Bounce, approach: float) -> float:
-    """Thickness at which the surface stops, eq. 14, not below hmin."""
-    return max(b.hmin, math.sqrt(3.0 / 8.0 * b.mu * max(approach, 0.0) * b.R**2 / b.sigma))
+    """Thickness at which the surface stops: eq. 14, not below hmin; or a number."""
+    if b.h0 not in ("contact", "current"):
+        return float(b.h0)
+    speed = abs(approach) if b.h0 == "current" else max(approach, 0.0)
+    return max(b.hmin, math.sqrt(3.0 / 8.0 * b.mu * speed * b.R**2 / b.sigma))
 
 
 def elastic_force(b: Bounce, Delta: float) -> float:
@@ -85,29 +97,61 @@ def elastic_force(b: Bounce, Delta: float) -> float:
     return b.sigma * b.R * (18.5 * (Delta / b.R)**2 + 2.0 * Delta / b.R)
 
 
+def rim(h: float, a: float) -> float:
+    """The integral (B.12), in units of R, with y = sin(t); see "The integral of the film" in doc/collision.rst."""
+    def integrand(t: float) -> float:
+        low = 2.0 * math.sin(0.5 * t)**2
+        q = PI * (t - 0.5 * math.sin(2.0 * t) + 2.0 * a * low)
+        return float(q * q / ((a + math.sin(t)) * (h + low)**3) * math.cos(t))
+    ends = [0.0, *np.geomspace(0.1 * math.sqrt(h), 0.5 * PI, 8)]    # it varies at t = sqrt(h)
+    return math.fsum(quad(integrand, *pair, epsrel=1e-11)[0] for pair in zip(ends, ends[1:]))
+
+
+@lru_cache(maxsize=64)
+def rims(h: float) -> CubicSpline:
+    """ln of the integral of a film of this thickness over asinh of its radius over sqrt(h)."""
+    at = np.linspace(0.0, math.asinh(1.0 / math.sqrt(h)), 200)
+    return CubicSpline(at, [math.log(rim(h, math.sinh(s) * math.sqrt(h))) for s in at])
+
+
+def film_integral(b: Bounce, h: float, a: float) -> float:
+    """By the fit of eq. 17, or by quadrature."""
+    if b.integral == "fit":
+        return 4.0 / math.sqrt(h) + 3.0 * a / h
+    return math.exp(float(rims(h)(math.asinh(a / math.sqrt(h)))))
+
+
 def film_coefficient(b: Bounce, Delta: float, h0: float) -> float:
     """Viscous force over approach speed of a closed film, eq. 17, with D or, as it is derived, D squared."""
     if b.viscous == "none":
         return 0.0
     x = max(Delta, 0.0) / b.R
     D = 0.34 / math.sqrt(x + 0.0002)
-    Ra = b.R * (-0.04 + math.sqrt(0.0016 + 9.44 * x)) / 4.72
-    return 12.0 * b.mu / (2.0 * PI) * (D if b.viscous == "published" else D * D) * (
-        4.0 * math.sqrt(b.R**3 / h0) + 3.0 * Ra * b.R / h0)
+    a = (-0.04 + math.sqrt(0.0016 + 9.44 * x)) / 4.72
+    power = D if b.viscous == "published" else D * D
+    return 12.0 * b.mu / (2.0 * PI) * power * b.R * film_integral(b, h0 / b.R, a)
+
+
+class Film(Enum):
+    OPEN = 0
+    CLOSED = 1
+    CREEPS = 2    # between both, gap = h0(speed)
 
 
 @dataclass(frozen=True)
 class Mode:
-    """Which forces act. h0: that of a closed film, None while it is open (or, `current`, always that of the speed)."""
-    closed: bool
+    """Which forces act. h0: that of a closed film, None where it is that of the speed."""
+    film: Film
     h0: float | None
     near: bool     # gap < R: lubrication and the force along the wall
     thin: bool     # gap < hmin: the force along the wall no longer depends on it
 
+    @property
+    def closed(self) -> bool:
+        return self.film is not Film.OPEN
+
     def thickness(self, b: Bounce, u: float) -> float:
-        if self.h0 is not None:
-            return self.h0
-        return film_at(b, abs(u) if b.h0 == "current" else u)
+        return self.h0 if self.h0 is not None else film_at(b, u)
 
 
 def rates(b: Bounce, mode: Mode, y: Array) -> Array:
@@ -119,14 +163,25 @@ def rates(b: Bounce, mode: Mode, y: Array) -> Array:
     drag = drag_coefficient(b, float(np.hypot(y[2], y[3])))
     normal = -lift * np.cos(tilt) + drag * u
     along = lift * np.sin(tilt) - drag * ut
-    if mode.closed:
+    if mode.film is Film.CLOSED:
         h0 = mode.thickness(b, u)
         normal += elastic_force(b, h0 - gap) + film_coefficient(b, h0 - gap, h0) * u
     elif mode.near and b.lubrication == "yes":
         normal += 6.0 * PI * b.mu * b.R**2 * u / width
     if mode.near and b.tangential == "yes":
         along += 3.2 * PI * b.mu * b.R * ut * np.log((b.hmin if mode.thin else width) / b.R)
+    if mode.film is Film.CREEPS:    # |u| goes with the square of the gap
+        return np.array([y[2], y[3], 2.0 * y[2]**2 / width, along / b.mass])
     return np.array([y[2], y[3], normal / b.mass, along / b.mass])
+
+
+def opening(b: Bounce, mode: Mode, y: Array, film: Film) -> float:
+    """How fast gap - h0 grows with the forces of an open, or of a closed, film, in R per second."""
+    u = -float(y[2])
+    h0 = mode.thickness(b, u)
+    follows = b.h0 == "current" and h0 > b.hmin    # the bound does not depend on the speed
+    slope = 0.5 * h0 / u if follows else 0.0       # h0 goes with the root of |u|
+    return float(y[2] + slope * rates(b, replace(mode, film=film), y)[2]) / b.R
 
 
 @dataclass
@@ -158,32 +213,59 @@ class Trajectory:
         return found
 
 
+SAME = 1e-11    # over R: events that are nearer to each other are one; roots are found to 1e-14
+
+
+def after(b: Bounce, mode: Mode, y: Array, happened: list[bool]) -> Mode:
+    """The mode that follows the events of a film, of the reach and of hmin; or those of a film that creeps."""
+    film, h0 = mode.film, mode.h0
+    if mode.film is Film.CREEPS:
+        if happened[0] or happened[2]:
+            film = Film.CLOSED
+        elif happened[3]:
+            film = Film.OPEN
+    elif happened[0]:
+        film = Film.OPEN if mode.closed else Film.CLOSED
+        h0 = film_at(b, -float(y[2])) if film is Film.CLOSED and b.h0 == "contact" else None
+        if b.h0 == "current" and opening(b, mode, y, film) * (1.0 if film is Film.CLOSED else -1.0) > 0.0:
+            film = Film.CREEPS    # its forces lead back
+    return Mode(film, h0, mode.near != happened[1], mode.thin != happened[2])
+
+
 def solve(b: Bounce, rtol: float = 1e-11) -> Trajectory:
     """From release at rest to b.time. Raises RuntimeError if the integrator gives up."""
+    if b.integral == "exact" and b.h0 == "current":
+        raise ValueError("reference: integral exact needs h0 contact or a number: its table is for one thickness")
     state = np.array([b.release * b.R, 0.0, 0.0, 0.0])
-    gap = state[0] - b.R
-    mode = Mode(False, None, gap < b.R, gap < b.hmin)
+    gap = float(state[0]) - b.R
+    mode = Mode(Film.OPEN, None, gap < b.R, gap < b.hmin)
     path = Trajectory([0.0], [], [], 0)
     absolute = rtol * np.array([b.R, b.R, 0.1, 0.1])
-
-    def film(t: float, y: Array) -> float:
-        return float(y[0] - b.R - mode.thickness(b, -y[2])) / b.R
-
-    def reach(t: float, y: Array) -> float:
-        return float(y[0] - 2.0 * b.R) / b.R
-
-    def bottom(t: float, y: Array) -> float:
-        return float(y[0] - b.R - b.hmin) / b.R
-
-    events: list[Any] = [film, reach, bottom]
-    for event in events:
-        event.terminal = True
     t = 0.0
     while t < b.time:
-        film.direction = 1.0 if mode.closed else -1.0       # type: ignore[attr-defined]
-        reach.direction = -1.0 if not mode.near else 1.0    # type: ignore[attr-defined]
-        bottom.direction = -1.0 if not mode.thin else 1.0   # type: ignore[attr-defined]
         held = mode
+
+        def film(t: float, y: Array, held: Mode = held) -> float:
+            return float(y[0] - b.R - held.thickness(b, -y[2])) / b.R
+
+        def reach(t: float, y: Array) -> float:
+            return float(y[0] - 2.0 * b.R) / b.R
+
+        def bottom(t: float, y: Array) -> float:
+            return float(y[0] - b.R - b.hmin) / b.R
+
+        def closes(t: float, y: Array, held: Mode = held) -> float:
+            return opening(b, held, y, Film.CLOSED)
+
+        def opens(t: float, y: Array, held: Mode = held) -> float:
+            return opening(b, held, y, Film.OPEN)
+
+        creeps = held.film is Film.CREEPS
+        events: list[Any] = [closes if creeps else film, reach, bottom, *([opens] if creeps else [])]
+        directions = [1.0 if held.film is Film.CLOSED else -1.0, 1.0 if held.near else -1.0,
+                      1.0 if held.thin else -1.0, 1.0]
+        for event, direction in zip(events, directions):
+            event.terminal, event.direction = True, direction
         done = solve_ivp(lambda t, y: rates(b, held, y), (t, b.time), state, method="Radau", rtol=rtol, atol=absolute,
                          events=events, dense_output=True, max_step=b.time / 100)
         if done.status < 0 or done.sol is None or done.t_events is None:
@@ -193,14 +275,10 @@ def solve(b: Bounce, rtol: float = 1e-11) -> Trajectory:
         path.ends.append(float(done.t[-1]))
         path.evaluations += done.nfev
         t, state = float(done.t[-1]), done.y[:, -1]
-        happened = [len(times) > 0 for times in done.t_events]
-        if happened[0]:
-            kept = film_at(b, -state[2]) if not mode.closed and b.h0 == "contact" else None
-            mode = Mode(not mode.closed, kept, mode.near, mode.thin)
-        if happened[1]:
-            mode = Mode(mode.closed, mode.h0, not mode.near, mode.thin)
-        if happened[2]:
-            mode = Mode(mode.closed, mode.h0, mode.near, not mode.thin)
+        # scipy ends with the first event and forgets others at the same time: a film that closes at hmin is two
+        happened = [len(times) > 0 or n < 3 and not (creeps and n == 0) and event(t, state) * direction > -SAME
+                    for n, (times, event, direction) in enumerate(zip(done.t_events, events, directions))]
+        mode = after(b, mode, state, [*happened, False][:4])
     return path
 
 
