@@ -1,0 +1,123 @@
+"""What the figures of this directory have in common: where runs and pictures are, ranges of tau, what a run took."""
+from __future__ import annotations
+
+import csv
+from dataclasses import dataclass
+from pathlib import Path
+import re
+
+import numpy as np
+
+from lammps_foam.analysis import runs, table
+
+LATE = 5.0     # exponents are of what comes after so many times fewer bubbles are left, and before
+LAST = 1.3     # so many times as many as in the last line
+DPI = 200
+
+
+@dataclass(frozen=True)
+class Place:
+    """Where the runs are, where figures and tables go, and whether PDF are wanted besides PNG."""
+
+    runs: Path
+    out: Path
+    pdf: bool = True
+
+    def run(self, name: str) -> Path:
+        return self.runs / name / "run"
+
+    def has(self, name: str) -> bool:
+        return (self.run(name) / "complete").exists()
+
+    def save(self, fig, name: str, dpi: int = DPI) -> None:
+        for kind in ("png", "pdf") if self.pdf else ("png",):
+            fig.savefig(self.out / f"{name}.{kind}", dpi=dpi)
+        fig.clear()
+
+    def write(self, rows: list[dict[str, object]], name: str) -> None:
+        """A table of rows with the same keys. Text goes as it is, numbers with all digits."""
+        table.write({key: [row[key] for row in rows] for key in rows[0]}, self.out / f"{name}.csv")
+
+
+@dataclass(frozen=True)
+class Result:
+    """A line of the table that compares with the thesis."""
+
+    figure: str
+    published: str
+    ours: str
+    names: list[str]     # of the runs it needs
+
+
+def with_error(value: float, error: float) -> str:
+    return table.with_error(value, error).replace("+-", "±")
+
+
+def range_of(values, digits: str = ".2f") -> str:
+    return f"{min(values):{digits}} to {max(values):{digits}}"
+
+
+# ------------------------------------------------------------------ runs
+
+def tables(place: Place, names: list[str]):
+    return runs.read_runs([place.run(name) for name in names], ["R", "N"])
+
+
+def late(series) -> tuple[float, float]:
+    """Range of tau of the runs in which the exponent is taken."""
+    start = max(runs.tau_of_N(one, one["N"][0] / LATE) for one in series)
+    return start, min(runs.tau_of_N(one, LAST * one["N"][-1]) for one in series)
+
+
+def minutes(directory: Path) -> float:
+    """Wall time of a run by its logs. The last line of an interrupted part may have waited: the one before counts."""
+    total = 0.0
+    for log in directory.glob("log.foam*"):
+        text = log.read_text(errors="replace")
+        whole = re.search(r"^Total wall time: (\d+):(\d+):(\d+)", text, re.MULTILINE)
+        if whole:
+            hours, minute, second = map(int, whole.groups())
+            total += 3600 * hours + 60 * minute + second
+            continue
+        total += sum(map(float, re.findall(r"^Loop time of (\S+)", text, re.MULTILINE)))
+        lines = re.split(r"^ *Step .*CPU *$", text, flags=re.MULTILINE)[-1]     # of the last table
+        if "Loop time" not in lines:
+            rows = re.findall(r"^ *\d+ .*? ([\d.e+-]+) *$", lines, re.MULTILINE)
+            total += float(rows[max(len(rows) - 2, 0)]) if rows else 0.0
+    return total / 60
+
+
+def end_of(directory: Path) -> tuple[int, float, int]:
+    """Step, tau and bubbles at the end of a complete run."""
+    text = (directory / "complete").read_text()
+    step, tau, left = re.search(r"step (\d+), tau (\S+), (\d+) bubbles", text).groups()
+    return int(step), float(tau), int(left)
+
+
+def shown_minutes(values) -> str:
+    return f"{np.sum(values):.0f}"
+
+
+# ------------------------------------------------------------------ the table that compares
+
+def compare(place: Place, results: list[Result], command: str) -> None:
+    """Put results into summary.csv, in the place of older ones of the same figures."""
+    path = place.out / "summary.csv"
+    head = ["figure", "published", "ours", "command", "minutes"]
+    rows = {}
+    if path.exists():
+        with path.open(newline="") as file:
+            rows = {row["figure"]: row for row in csv.DictReader(file)}
+    for one in results:
+        spent = shown_minutes([minutes(place.run(name)) for name in one.names])
+        rows[one.figure] = dict(zip(head, (one.figure, one.published, one.ours, command, spent)))
+    with path.open("w", newline="") as file:
+        writer = csv.DictWriter(file, head, lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(rows[key] for key in sorted(rows, key=place_of))
+
+
+def place_of(figure: str) -> tuple[float, ...]:
+    """4.10 comes after 4.9; what has no number comes last."""
+    numbers = re.findall(r"\d+", figure)[:2]
+    return tuple(map(float, numbers)) if numbers else (99.0,)
