@@ -15,6 +15,7 @@
 #include "foam_history.h"
 
 #include <cmath>
+#include <type_traits>
 
 // What happens where two bubbles, or a bubble and a wall, are close: the model as the user has chosen it, and the loops
 // over pairs and walls.  Formulae: bubble_physics.h.
@@ -141,17 +142,35 @@ FOAM_FUNCTION Surfaces surfaces(const Collision &c, const Gap &gap, const Meetin
   return s;
 }
 
+// between pairs of bubbles, see Foam::ComesNear
+
+struct ReachOfCollision {
+  Collision model;
+  FOAM_FUNCTION double operator()(double sum) const { return sum + model.longest(sum); }
+};
+
 // ---------------------------------------------------------------------- what is known of all of them
 
-struct CollisionTotals {
+struct CollisionRates {      // always
+  Foam::FoamMax most;        // contacts of a bubble
+  Foam::FoamMax closing;     // 1 / time in which a gap closes, as it does now
+  Foam::FoamMax friction;    // of a bubble in all its gaps: force per speed and volume
+  FOAM_FUNCTION void join(const CollisionRates &other)
+  {
+    most.join(other.most);
+    closing.join(other.closing);
+    friction.join(other.friction);
+  }
+};
+
+struct CollisionTotals : CollisionRates {    // where energies and stresses are asked for
   Foam::FoamSum energy, viscous, lubrication, sliding;    // powers: work done on the bubbles
   Foam::FoamSum closed;                                   // contacts
   Foam::FoamSum xx, yy, zz, xy, xz, yz;                   // sums of r f
-  Foam::FoamMax most;                                     // contacts of a bubble
-  Foam::FoamMax closing;     // 1 / time in which a gap closes, as it does now
-  Foam::FoamMax friction;    // of a bubble in all its gaps: force per speed and volume
+  using CollisionRates::join;
   FOAM_FUNCTION void join(const CollisionTotals &other)
   {
+    CollisionRates::join(other);
     energy.join(other.energy);
     viscous.join(other.viscous);
     lubrication.join(other.lubrication);
@@ -163,9 +182,6 @@ struct CollisionTotals {
     xy.join(other.xy);
     xz.join(other.xz);
     yz.join(other.yz);
-    most.join(other.most);
-    closing.join(other.closing);
-    friction.join(other.friction);
   }
 };
 
@@ -196,6 +212,7 @@ struct Looks {
 // half.
 
 template <class B, bool TALLY> struct Encounter {
+  using Totals = std::conditional_t<TALLY, CollisionTotals, CollisionRates>;
   Collision model;
   Looks looks;
   bool looked;
@@ -203,8 +220,7 @@ template <class B, bool TALLY> struct Encounter {
   // n: unit vector from the partner to bubble i; u: velocity of i relative to the partner
 
   FOAM_FUNCTION Meeting operator()(int i, const Gap &gap, double width, const double *n,
-                                   const double *u, double h_kept, double *force,
-                                   CollisionTotals &all) const
+                                   const double *u, double h_kept, double *force, Totals &all) const
   {
     const double un = u[0] * n[0] + u[1] * n[1] + u[2] * n[2];
     const Meeting m = meet(model, gap, width, -un, h_kept);
@@ -301,7 +317,9 @@ template <class B, class List, bool TALLY> struct Collide {
   bool moves = true;      // adds the forces to those of LAMMPS
   double *virial[6]{};    // of each bubble, where it is asked for
 
-  FOAM_FUNCTION void operator()(int n, CollisionTotals &all) const
+  using Totals = typename Encounter<B, TALLY>::Totals;
+
+  FOAM_FUNCTION void operator()(int n, Totals &all) const
   {
     const auto row = list.row(n);
     const int i = row.i;
@@ -311,24 +329,23 @@ template <class B, class List, bool TALLY> struct Collide {
       if (encounter.looked) encounter.looks.clear(i);
     double total[4] = {0.0, 0.0, 0.0, 0.0};    // force, and friction
     const double widest = films.widest(i);
-    CollisionTotals mine;
+    Totals mine;
     row.for_each([&](int j, auto) { pass(i, j, widest, total, mine); });
 
     if (films.renewed) all.most.raise(films.now.count(i));
     if (!films.fit(i)) return;
     if (moves)
       for (int k = 0; k < 3; k++) b.f(i, k) += total[k];
-    all.closing.join(mine.closing);
     all.friction.raise(total[3] / volume(b.radius(i)));
+    all.join(mine);
     if constexpr (TALLY) {
       const double v[6] = {mine.xx, mine.yy, mine.zz, mine.xy, mine.xz, mine.yz};
       if (virial[0])
         for (int k = 0; k < 6; k++) virial[k][i] = v[k];
-      all.join(mine);
     }
   }
 
-  FOAM_FUNCTION void pass(int i, int j, double widest, double *total, CollisionTotals &mine) const
+  FOAM_FUNCTION void pass(int i, int j, double widest, double *total, Totals &mine) const
   {
     const Collision &model = encounter.model;
     const double Ri = b.radius(i), Rj = b.radius(j), sum = Ri + Rj;

@@ -27,14 +27,11 @@ struct Liquid {
 };
 
 struct LiquidTotals {
-  Foam::FoamSum buoyancy, drag, kinetic;    // powers; energy with the added mass
-  Foam::FoamMax speed;                      // of a bubble
+  Foam::FoamSum buoyancy, drag;    // powers
   FOAM_FUNCTION void join(const LiquidTotals &other)
   {
     buoyancy.join(other.buoyancy);
     drag.join(other.drag);
-    kinetic.join(other.kinetic);
-    speed.join(other.speed);
   }
 };
 
@@ -48,7 +45,6 @@ FOAM_FUNCTION double effective_mass(const Liquid &liquid, double mass, double R)
 template <class B> struct Rise {
   static constexpr const char *NAME = "bubble: rise";
   B b;
-  Foam::Values<double> mass;
   Liquid liquid;
   const double *flow[3];    // velocity of the liquid; or none
   double *stiffness;        // of the drag; or none
@@ -57,13 +53,12 @@ template <class B> struct Rise {
 
   FOAM_FUNCTION void operator()(int i, LiquidTotals &all) const
   {
-    const double R = b.radius(i), m = mass(i);
-    double u[3], relative[3], slip = 0.0, speed = 0.0;
+    const double R = b.radius(i), m = b.mass(i);
+    double u[3], relative[3], slip = 0.0;
     for (int k = 0; k < 3; k++) {
       u[k] = b.v(i, k);
       relative[k] = flow[k] ? u[k] - flow[k][i] : u[k];
       slip += relative[k] * relative[k];
-      speed += u[k] * u[k];
     }
     const double coefficient = drag(liquid.drag, liquid.rho, liquid.mu, R, std::sqrt(slip));
     const double weight = m - liquid.rho * volume(R);
@@ -75,10 +70,35 @@ template <class B> struct Rise {
       if (drag_of[k]) drag_of[k][i] = friction;
       if (buoyancy_of[k]) buoyancy_of[k][i] = lift;
     }
-    all.kinetic += 0.5 * effective_mass(liquid, m, R) * speed;
-    all.speed.raise(std::sqrt(speed));
     if (stiffness) stiffness[i] = coefficient;
   }
+};
+
+// with the mass that the liquid adds
+
+struct KineticEnergy {
+  Foam::FoamSum sum;
+  FOAM_FUNCTION void join(const KineticEnergy &other) { sum.join(other.sum); }
+};
+
+template <class B> struct AddKinetic {
+  static constexpr const char *NAME = "bubble: kinetic energy";
+  B b;
+  Liquid liquid;
+  FOAM_FUNCTION void operator()(int i, KineticEnergy &all) const
+  {
+    double square = 0.0;
+    for (int k = 0; k < 3; k++) square += b.v(i, k) * b.v(i, k);
+    all.sum += 0.5 * effective_mass(liquid, b.mass(i), b.radius(i)) * square;
+  }
+};
+
+// for bubbles that the liquid does not act on
+
+struct ClearColumn {
+  static constexpr const char *NAME = "bubble: clear column";
+  double *column;
+  FOAM_FUNCTION void operator()(int i) const { column[i] = 0.0; }
 };
 
 }    // namespace Bubble

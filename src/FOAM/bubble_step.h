@@ -46,13 +46,12 @@ struct StepColumns {
 template <class B> struct Advance {
   static constexpr const char *NAME = "bubble: advance";
   B b;
-  Foam::Values<double> mass;
   Liquid liquid;
   StepColumns s;
   double h;
   FOAM_FUNCTION void operator()(int i) const
   {
-    const double half = 0.5 * h / effective_mass(liquid, mass(i), b.radius(i));
+    const double half = 0.5 * h / effective_mass(liquid, b.mass(i), b.radius(i));
     for (int k = 0; k < 3; k++) {
       const double kick = half * b.f(i, k), v = b.v(i, k) + kick;
       s.kick[k][i] = kick;
@@ -65,14 +64,13 @@ template <class B> struct Advance {
 template <class B> struct Finish {
   static constexpr const char *NAME = "bubble: finish";
   B b;
-  Foam::Values<double> mass;
   Liquid liquid;
   StepColumns s;
   const double *stiffness;    // of the drag, or none
   double h;
   FOAM_FUNCTION void operator()(int i, StepTotals &all) const
   {
-    const double R = b.radius(i), m = effective_mass(liquid, mass(i), R), half = 0.5 * h / m;
+    const double R = b.radius(i), m = effective_mass(liquid, b.mass(i), R), half = 0.5 * h / m;
     const double part = stiffness ? 1.0 / (1.0 + half * stiffness[i]) : 1.0;
     double square = 0.0, speed = 0.0;
     for (int k = 0; k < 3; k++) {
@@ -87,6 +85,39 @@ template <class B> struct Finish {
     all.error.raise(h * std::sqrt(square) / R);
     all.rate.raise(std::sqrt(speed) / R);
     all.lightness.raise(volume(R) / m);
+  }
+};
+
+// The set-up of a run: forces are those that the last step ended with, at v_pred, unless somebody has changed
+// velocities.  Then bubbles get their own back.
+
+template <class B> struct TakePredicted {
+  static constexpr const char *NAME = "bubble: take predicted velocities";
+  B b;
+  StepColumns s;
+  FOAM_FUNCTION void operator()(int i) const
+  {
+    for (int k = 0; k < 3; k++) {
+      const double v = b.v(i, k);
+      const bool changed = v != s.end[k][i];
+      if (changed) s.predicted[k][i] = s.end[k][i] = v;
+      b.v(i, k) = s.predicted[k][i];
+    }
+  }
+};
+
+template <class B> struct GiveBack {
+  static constexpr const char *NAME = "bubble: give velocities back";
+  B b;
+  StepColumns s;
+  const double *stiffness;    // of the drag, or none
+  FOAM_FUNCTION void operator()(int i) const
+  {
+    for (int k = 0; k < 3; k++) {
+      const double end = s.end[k][i];
+      if (stiffness) b.f(i, k) -= stiffness[i] * (end - b.v(i, k));
+      b.v(i, k) = end;
+    }
   }
 };
 

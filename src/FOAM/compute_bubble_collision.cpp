@@ -98,21 +98,23 @@ void ComputeBubbleCollision::compute_peratom()
   FoamColumns &looks = pair->look();
   for (auto &fix : modify->get_fix_list())
     if (auto *wall = dynamic_cast<FixWallBubble *>(fix)) wall->add_looks(looks);
-  liquid.use(atom->nmax);
-  for (int i = 0; i < atom->nlocal; i++) liquid.clear(i);
-  double *const drag[] = {liquid[0], liquid[1], liquid[2]};
-  double *const buoyancy[] = {liquid[3], liquid[4], liquid[5]};
-  if (FixBubbleRise *rise = FixBubbleRise::of(lmp)) rise->look(drag, buoyancy);
+  FixBubbleRise *const rise = FixBubbleRise::of(lmp);
+  FoamColumns *const liquid = rise ? &rise->look() : nullptr;
+  pair->host_reads();
 
   double *out = wanted.size() == 1 ? vector : array[0];
   for (int i = 0; i < atom->nlocal; i++)
     for (const int quantity : wanted) {
-      const double value = quantity < DRAG ? looks[quantity][i] : liquid[quantity - DRAG][i];
+      double value = 0.0;
+      if (quantity < OF_LIQUID)
+        value = looks[quantity][i];
+      else if (liquid)
+        value = (*liquid)[quantity - OF_LIQUID][i];
       *out++ = atom->mask[i] & groupbit ? value : 0.0;
     }
 }
 
 double ComputeBubbleCollision::memory_usage()
 {
-  return bytes(all_columns) + sizeof(double) * double(nmax) * wanted.size();
+  return sizeof(double) * double(nmax) * wanted.size();
 }

@@ -18,7 +18,6 @@ ComputeStyle(bubble/collision,ComputeBubbleCollision);
 
 #include "bubble_collision.h"
 #include "compute.h"
-#include "foam_columns.h"
 
 #include <vector>
 
@@ -35,10 +34,8 @@ class ComputeBubbleCollision : public Compute {
   double memory_usage() override;
 
  private:
-  enum { DRAG = Bubble::LOOKS, BUOYANCY = DRAG + 3, QUANTITIES = BUOYANCY + 3 };
-  std::vector<int> wanted;    // numbers of quantities
-  FoamColumnList all_columns;
-  FoamColumns liquid{all_columns, "forces of the liquid", 6};
+  enum { OF_LIQUID = Bubble::LOOKS };    // those before are the pair style's
+  std::vector<int> wanted;               // numbers of quantities
   class PairBubbleCollision *pair = nullptr;
   int nmax = 0;
   double *vector = nullptr, **array = nullptr;

@@ -9,19 +9,16 @@
 
 #include "fix_bubble_nve.h"
 
-#include "fix_bubble_rise.h"
 #include "fix_wall_bubble.h"
 #include "foam_host.h"
 #include "foam_input.h"
 #include "pair_bubble_collision.h"
 
-#include "atom.h"
 #include "comm.h"
 #include "error.h"
 #include "force.h"
 #include "modify.h"
 #include "output.h"
-#include "update.h"
 
 #include <algorithm>
 #include <cmath>
@@ -83,6 +80,8 @@ void FixBubbleNVE::init()
     error->all(FLERR, "Fix bubble/nve needs run_style verlet");
   pair = PairBubbleCollision::of(lmp);
   rise = FixBubbleRise::of(lmp);
+  if (pair) pair->check_place("Fix bubble/nve", kokkosable, execution_space);
+  if (rise) rise->check_place("Fix bubble/nve", kokkosable, execution_space);
   int others = 0;
   for (auto &fix : modify->get_fix_list())
     if (fix != this && fix->time_integrate) others++;
@@ -97,65 +96,53 @@ Bubble::Liquid FixBubbleNVE::liquid() const
   return rise ? rise->liquid : Bubble::Liquid();
 }
 
-Bubble::StepColumns FixBubbleNVE::step_columns()
-{
-  Bubble::StepColumns s;
-  for (int k = 0; k < 3; k++) {
-    s.kick[k] = columns[KICK + k];
-    s.predicted[k] = columns[PREDICTED + k];
-    s.end[k] = columns[END + k];
-  }
-  return s;
-}
-
 /* ----------------------------------------------------------------------
    set-up: the forces that the last step ended with, unless somebody has changed velocities
 ------------------------------------------------------------------------- */
 
 void FixBubbleNVE::setup_pre_exchange()
 {
-  for (int i = 0; i < atom->nlocal; i++)
-    for (int k = 0; k < 3; k++) {
-      double &v = atom->v[i][k];
-      const bool changed = v != columns[END + k][i];
-      if (changed) columns[PREDICTED + k][i] = columns[END + k][i] = v;
-      v = columns[PREDICTED + k][i];
-    }
+  take_predicted();
 }
 
 void FixBubbleNVE::setup(int)
 {
-  const double *const stiffness = rise ? rise->stiffness() : nullptr;
-  for (int i = 0; i < atom->nlocal; i++)
-    for (int k = 0; k < 3; k++) {
-      double &v = atom->v[i][k];
-      const double d = columns[END + k][i] - v;
-      v = columns[END + k][i];
-      if (stiffness) atom->f[i][k] -= stiffness[i] * d;
-    }
+  give_back();
   if (tolerance > 0.0) set_timestep(h > 0.0 ? h : std::min(update->dt, next_step()));
 }
 
-/* ---------------------------------------------------------------------- */
-
 void FixBubbleNVE::initial_integrate(int)
 {
-  FoamHost space(lmp, groupbit);
-  space.for_each(atom->nlocal,
-                 Bubble::Advance<FoamHost::Bubbles>{
-                     space.bubbles(), {atom->rmass}, liquid(), step_columns(), update->dt});
+  advance();
 }
 
 void FixBubbleNVE::final_integrate()
 {
+  finish();
+}
+
+void FixBubbleNVE::take_predicted()
+{
   FoamHost space(lmp, groupbit);
-  totals = space.totals<Bubble::StepTotals>(
-      atom->nlocal, Bubble::Finish<FoamHost::Bubbles>{space.bubbles(),
-                                                      {atom->rmass},
-                                                      liquid(),
-                                                      step_columns(),
-                                                      rise ? rise->stiffness() : nullptr,
-                                                      update->dt});
+  take_predicted_in(space);
+}
+
+void FixBubbleNVE::give_back()
+{
+  FoamHost space(lmp, groupbit);
+  give_back_in(space);
+}
+
+void FixBubbleNVE::advance()
+{
+  FoamHost space(lmp, groupbit);
+  advance_in(space);
+}
+
+void FixBubbleNVE::finish()
+{
+  FoamHost space(lmp, groupbit);
+  finish_in(space);
 }
 
 // as fix dt/reset does

@@ -17,8 +17,12 @@ FixStyle(bubble/nve,FixBubbleNVE);
 #define LMP_FIX_BUBBLE_NVE_H
 
 #include "bubble_step.h"
-#include "fix.h"
+#include "fix_bubble_rise.h"
 #include "foam_columns.h"
+
+#include "atom.h"
+#include "fix.h"
+#include "update.h"
 
 namespace LAMMPS_NS {
 
@@ -56,23 +60,66 @@ class FixBubbleNVE : public Fix {
   double memory_usage() override;
 
  protected:
+  virtual void take_predicted();    // loops over bubbles
+  virtual void give_back();
+  virtual void advance();
+  virtual void finish();
+  template <class Space> void take_predicted_in(Space &space)
+  {
+    using B = typename Space::Bubbles;
+    space.for_each(atom->nlocal, Bubble::TakePredicted<B>{space.bubbles(), step_columns(space)});
+  }
+  template <class Space> void give_back_in(Space &space)
+  {
+    using B = typename Space::Bubbles;
+    space.for_each(atom->nlocal,
+                   Bubble::GiveBack<B>{space.bubbles(), step_columns(space), stiffness(space)});
+  }
+  template <class Space> void advance_in(Space &space)
+  {
+    using B = typename Space::Bubbles;
+    space.for_each(atom->nlocal,
+                   Bubble::Advance<B>{space.bubbles(), liquid(), step_columns(space), update->dt});
+  }
+  template <class Space> void finish_in(Space &space)
+  {
+    using B = typename Space::Bubbles;
+    totals = space.template totals<Bubble::StepTotals>(
+        atom->nlocal, Bubble::Finish<B>{space.bubbles(), liquid(), step_columns(space),
+                                        stiffness(space), update->dt});
+  }
+
   FoamColumnList all_columns;
   enum { KICK, PREDICTED = 3, END = 6, NCOLUMNS = 9 };
   FoamColumns columns{all_columns, "steps of bubbles", NCOLUMNS};
+  FoamColumnList travelling() { return all_columns; }
 
  private:
   class PairBubbleCollision *pair = nullptr;
-  class FixBubbleRise *rise = nullptr;    // none: no liquid
-  double tolerance = 0.0;                 // 0: the timestep is fixed
-  double longest = 0.0;                   // 0: no limit
-  double h = 0.0;                         // next step; 0 before the first
-  double dt_given = 0.0;                  // of the timestep command, put back after a run
-  Bubble::StepTotals totals;              // of this rank
+  FixBubbleRise *rise = nullptr;    // none: no liquid
+  double tolerance = 0.0;           // 0: the timestep is fixed
+  double longest = 0.0;             // 0: no limit
+  double h = 0.0;                   // next step; 0 before the first
+  double dt_given = 0.0;            // of the timestep command, put back after a run
+  Bubble::StepTotals totals;        // of this rank
   double error_last = 0.0, error_worst = 0.0, shortest = 0.0;
   bool called_back = false;
 
   Bubble::Liquid liquid() const;
-  Bubble::StepColumns step_columns();
+  template <class Space> const double *stiffness(Space &space) const
+  {
+    return rise ? rise->stiffness(space) : nullptr;
+  }
+  template <class Space> Bubble::StepColumns step_columns(Space &space)
+  {
+    Bubble::StepColumns s;
+    for (int k = 0; k < 3; k++) {
+      s.kick[k] = space.column(columns, KICK + k);
+      s.predicted[k] = space.column(columns, PREDICTED + k);
+      s.end[k] = space.column(columns, END + k);
+    }
+    return s;
+  }
   double next_step();
   void set_timestep(double);
 };

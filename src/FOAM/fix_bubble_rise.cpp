@@ -13,7 +13,6 @@
 #include "foam_input.h"
 #include "foam_variable.h"
 
-#include "atom.h"
 #include "comm.h"
 #include "error.h"
 #include "force.h"
@@ -95,6 +94,15 @@ void FixBubbleRise::init()
   }
 }
 
+void FixBubbleRise::check_place(const char *style, int its_kokkosable, int its_space) const
+{
+  if (its_kokkosable != kokkosable || (kokkosable && its_space != execution_space))
+    error->all(FLERR,
+               "{} and fix bubble/rise must run in the same place: use the suffix kk for all "
+               "styles of bubbles or for none",
+               style);
+}
+
 /* ----------------------------------------------------------------------
    forces
 ------------------------------------------------------------------------- */
@@ -103,14 +111,14 @@ void FixBubbleRise::init()
 
 void FixBubbleRise::setup_pre_reverse(int, int)
 {
-  act();
+  push();
   before[0] = totals.buoyancy;
   before[1] = totals.drag;
 }
 
 void FixBubbleRise::post_force(int)
 {
-  act();
+  push();
   const double power[] = {totals.buoyancy, totals.drag};
   for (int k = 0; k < 2; k++) {    // trapezoidal rule
     work[k] += 0.5 * update->dt * (before[k] + power[k]);
@@ -118,49 +126,47 @@ void FixBubbleRise::post_force(int)
   }
 }
 
+void FixBubbleRise::push()
+{
+  prepare();
+  act();
+  reduced = false;
+}
+
 void FixBubbleRise::take_flow()
 {
   if (!flows) return;
+  host_reads();
   modify->clearstep_compute();
   for (int k = 0; k < 3; k++)
     if (!flow[k].empty()) take_atom_variable(lmp, "bubble/rise", flow[k], igroup, columns[VX + k]);
   modify->addstep_compute(update->ntimestep + 1);
 }
 
-template <class Space> Bubble::Rise<typename Space::Bubbles> FixBubbleRise::functor(Space &space)
+void FixBubbleRise::prepare()    // columns, before a loop
 {
-  auto along = [&](int k) -> const double * {
-    return flow[k].empty() ? nullptr : space.column(columns, VX + k);
-  };
-  return {space.bubbles(), {atom->rmass}, liquid, {along(0), along(1), along(2)}, nullptr};
+  if (flows || implicit) columns.use(atom->nmax);
+  take_flow();
 }
 
 void FixBubbleRise::act()
 {
-  if (flows || implicit) columns.use(atom->nmax);
-  take_flow();
   FoamHost space(lmp, groupbit);
-  auto rise = functor(space);
-  if (implicit) {
-    rise.stiffness = space.column(columns, STIFFNESS);
-    std::fill_n(rise.stiffness, atom->nlocal, 0.0);    // of those outside of the group, too
-  }
-  totals = space.totals<Bubble::LiquidTotals>(atom->nlocal, rise);
-  reduced = false;
+  act_in(space);
 }
 
-void FixBubbleRise::look(double *const *drag, double *const *buoyancy)
+FoamColumns &FixBubbleRise::look()
 {
-  if (flows) columns.use(atom->nmax);
-  take_flow();
+  prepare();
+  looks.use(atom->nmax);
+  fill_looks();
+  return looks;
+}
+
+void FixBubbleRise::fill_looks()
+{
   FoamHost space(lmp, groupbit);
-  auto rise = functor(space);
-  rise.moves = false;
-  for (int k = 0; k < 3; k++) {
-    rise.drag_of[k] = drag[k];
-    rise.buoyancy_of[k] = buoyancy[k];
-  }
-  space.totals<Bubble::LiquidTotals>(atom->nlocal, rise);
+  fill_looks_in(space);
 }
 
 /* ----------------------------------------------------------------------
@@ -170,15 +176,15 @@ void FixBubbleRise::look(double *const *drag, double *const *buoyancy)
 void FixBubbleRise::reduce()
 {
   if (reduced) return;
-  double mine[ALL] = {work[0], work[1], totals.buoyancy, totals.drag, 0.0};
-  for (int i = 0; i < atom->nlocal; i++)
-    if (atom->mask[i] & groupbit) {
-      const double *const u = atom->v[i];
-      mine[KINETIC] += 0.5 * (u[0] * u[0] + u[1] * u[1] + u[2] * u[2]) *
-                       Bubble::effective_mass(liquid, atom->rmass[i], atom->radius[i]);
-    }
+  const double mine[ALL] = {work[0], work[1], totals.buoyancy, totals.drag, kinetic()};
   MPI_Allreduce(mine, all, ALL, MPI_DOUBLE, MPI_SUM, world);
   reduced = true;
+}
+
+double FixBubbleRise::kinetic()
+{
+  FoamHost space(lmp, groupbit);
+  return kinetic_in(space);
 }
 
 double FixBubbleRise::compute_vector(int n)

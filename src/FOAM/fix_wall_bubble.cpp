@@ -10,10 +10,8 @@
 #include "fix_wall_bubble.h"
 
 #include "bubble_input.h"
-#include "foam_host.h"
 #include "pair_bubble_collision.h"
 
-#include "atom.h"
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
@@ -90,8 +88,10 @@ int FixWallBubble::setmask()
 
 void FixWallBubble::init()
 {
-  if (!PairBubbleCollision::of(lmp))
+  const PairBubbleCollision *const pair = PairBubbleCollision::of(lmp);
+  if (!pair)
     error->all(FLERR, "Fix wall/bubble needs pair_style bubble/collision, whose model it takes");
+  pair->check_place("Fix wall/bubble", kokkosable, execution_space);
   take_model();
   region = nullptr;
   if (region_name.empty()) return;
@@ -107,12 +107,14 @@ void FixWallBubble::init()
 void FixWallBubble::setup_pre_reverse(int, int)
 {
   push();
+  reduced = false;
   losses.begin(totals);
 }
 
 void FixWallBubble::post_force(int)
 {
   push();
+  reduced = false;
   losses.step(totals, update->dt);
 }
 
@@ -147,52 +149,25 @@ template <class B> struct MeetRegion {
 
 }    // namespace
 
-template <class Space> Bubble::MeetPlane<typename Space::Bubbles> FixWallBubble::plane(Space &space)
+Bubble::WallTotals FixWallBubble::meet(FoamHost &space,
+                                       const Bubble::MeetPlane<Foam::HostBubbles> &wall)
 {
-  return {space.bubbles(),
-          {place[0], place[1], place[2]},
-          {normal[0], normal[1], normal[2]},
-          {model, {}, false},
-          {}};
-}
-
-template <class Space, class Functor>
-Bubble::WallTotals FixWallBubble::meet(Space &space, const Functor &functor)
-{
-  if (region)
-    return space.template totals<Bubble::WallTotals>(
-        atom->nlocal, MeetRegion<typename Space::Bubbles>{functor, region});
-  return space.template totals<Bubble::WallTotals>(atom->nlocal, functor);
+  if (!region) return space.totals<Bubble::WallTotals>(atom->nlocal, wall);
+  region->prematch();
+  return space.totals<Bubble::WallTotals>(atom->nlocal,
+                                          MeetRegion<Foam::HostBubbles>{wall, region});
 }
 
 void FixWallBubble::push()
 {
-  if (region) region->prematch();
   FoamHost space(lmp, groupbit);
-  auto functor = plane(space);
-  auto run = [&](const Bubble::Films &films) {
-    functor.films = films;
-    totals = meet(space, functor);
-    return 0;
-  };
-  if (model.stop == Bubble::Stop::CONTACT)
-    evaluate(space, atom->nmax, run);
-  else
-    run({});
-  reduced = false;
+  push_in(space);
 }
 
 void FixWallBubble::add_looks(FoamColumns &looks)
 {
-  if (region) region->prematch();
   FoamHost space(lmp, groupbit);
-  auto functor = plane(space);
-  functor.moves = false;
-  functor.encounter.looked = true;
-  for (int k = 0; k < Bubble::LOOKS; k++)
-    functor.encounter.looks.column[k] = space.column(looks, k);
-  if (model.stop == Bubble::Stop::CONTACT) functor.films = now(space);
-  meet(space, functor);
+  add_looks_in(space, looks);
 }
 
 /* ----------------------------------------------------------------------

@@ -19,6 +19,9 @@ FixStyle(wall/bubble,FixWallBubble);
 #include "bubble_collision.h"
 #include "fix_bubble_films.h"
 #include "foam_columns.h"
+#include "foam_host.h"
+
+#include "atom.h"
 
 #include <string>
 #include <vector>
@@ -41,7 +44,14 @@ class FixWallBubble : public FixBubbleFilms {
   void restart(char *) override;
 
   const Bubble::WallTotals &of_this_rank() const { return totals; }
-  void add_looks(FoamColumns &);    // the terms of each bubble, to those of its other contacts
+  virtual void
+  add_looks(FoamColumns &);    // the terms of each bubble, to those of its other contacts
+
+ protected:
+  virtual void push();
+  template <class Space> void push_in(Space &space);
+  template <class Space> void add_looks_in(Space &space, FoamColumns &looks);
+  bool at_region() const { return region != nullptr; }
 
  private:
   double place[3] = {0.0, 0.0, 0.0}, normal[3] = {0.0, 0.0, 0.0};
@@ -58,12 +68,47 @@ class FixWallBubble : public FixBubbleFilms {
   bool reduced = false;
 
   void take_model();
-  void push();
-  template <class Space> Bubble::MeetPlane<typename Space::Bubbles> plane(Space &space);
+  template <class Space> Bubble::MeetPlane<typename Space::Bubbles> plane(Space &space)
+  {
+    return {space.bubbles(),
+            {place[0], place[1], place[2]},
+            {normal[0], normal[1], normal[2]},
+            {model, {}, false},
+            {}};
+  }
   template <class Space, class Functor>
-  Bubble::WallTotals meet(Space &space, const Functor &functor);
+  Bubble::WallTotals meet(Space &space, const Functor &functor)
+  {
+    return space.template totals<Bubble::WallTotals>(atom->nlocal, functor);
+  }
+  Bubble::WallTotals meet(FoamHost &, const Bubble::MeetPlane<Foam::HostBubbles> &);
   void reduce();
 };
+
+template <class Space> void FixWallBubble::push_in(Space &space)
+{
+  auto functor = plane(space);
+  auto run = [&](const Bubble::Films &films) {
+    functor.films = films;
+    totals = meet(space, functor);
+    return 0;
+  };
+  if (model.stop == Bubble::Stop::CONTACT)
+    evaluate(space, atom->nmax, run);
+  else
+    run({});
+}
+
+template <class Space> void FixWallBubble::add_looks_in(Space &space, FoamColumns &looks)
+{
+  auto functor = plane(space);
+  functor.moves = false;
+  functor.encounter.looked = true;
+  for (int k = 0; k < Bubble::LOOKS; k++)
+    functor.encounter.looks.column[k] = space.column(looks, k);
+  if (model.stop == Bubble::Stop::CONTACT) functor.films = now(space);
+  meet(space, functor);
+}
 
 }    // namespace LAMMPS_NS
 

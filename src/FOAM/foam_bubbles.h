@@ -50,24 +50,35 @@ struct HostBubbles {
   Values<double> radius;
   Values<int> type;
   Values<LAMMPS_NS::tagint> tag;
+  Values<double> mass;    // none, where the atom style has none
 
   FOAM_FUNCTION double place(int i, int k) const { return x(i, k); }
   FOAM_FUNCTION void put(int i, int k, double value) const { x(i, k) = value; }
 };
 
-// May a pair come within range (R_i + R_j) before the next list? LAMMPS' lists by the cutoff of types have many that may not.
+// May a pair come within reach(R_i + R_j) before the next list, in whose time distances change by up to the skin?
+// LAMMPS' lists by the cutoff of types have many pairs that may not.
 
-template <class B>
-FOAM_FUNCTION bool comes_near(const B &b, int i, int j, double range, double skin)
-{
-  const double reach = range * (b.radius(i) + b.radius(j)) + skin;
-  double square = 0.0;
-  for (int k = 0; k < 3; k++) {
-    const double d = b.x(i, k) - b.x(j, k);
-    square += d * d;
+struct ReachOfContact {    // range (R_i + R_j)
+  double range;
+  FOAM_FUNCTION double operator()(double sum) const { return range * sum; }
+};
+
+template <class B, class Reach> struct ComesNear {
+  B b;
+  Reach reach;
+  double skin;
+  FOAM_FUNCTION bool operator()(int i, int j) const
+  {
+    const double far = reach(b.radius(i) + b.radius(j)) + skin;
+    double square = 0.0;
+    for (int k = 0; k < 3; k++) {
+      const double d = b.x(i, k) - b.x(j, k);
+      square += d * d;
+    }
+    return square < far * far;
   }
-  return square < reach * reach;
-}
+};
 
 // What one pass over the contacts gathers
 

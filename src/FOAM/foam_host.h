@@ -34,7 +34,8 @@ class FoamHost : protected Pointers {
     auto rows = [](double **array) {
       return Foam::Rows<double>{array ? array[0] : nullptr};
     };
-    return {rows(atom->x), rows(atom->v), rows(atom->f), {atom->radius}, {atom->type}, {atom->tag}};
+    return {rows(atom->x), rows(atom->v), rows(atom->f), {atom->radius},
+            {atom->type},  {atom->tag},   {atom->rmass}};
   }
   Foam::Members members(int group) const
   {

@@ -24,12 +24,17 @@
 
 #ifdef FOAM_KOKKOS
 #include "compute_foam_bubble_kokkos.h"
+#include "fix_bubble_films_kokkos.h"
+#include "fix_bubble_nve_kokkos.h"
+#include "fix_bubble_rise_kokkos.h"
 #include "fix_foam_abm_kokkos.h"
 #include "fix_foam_coarsen_kokkos.h"
 #include "fix_foam_contacts_kokkos.h"
 #include "fix_foam_flow_kokkos.h"
 #include "fix_foam_rkc_kokkos.h"
 #include "fix_foam_wall_kokkos.h"
+#include "fix_wall_bubble_kokkos.h"
+#include "pair_bubble_collision_kokkos.h"
 #include "pair_durian_foam_kokkos.h"
 #endif
 
@@ -37,6 +42,7 @@
 #include "lammps.h"
 #include "utils.h"
 
+#include <deque>
 #include <functional>
 #include <string>
 
@@ -139,6 +145,11 @@ void lammpsplugin_init(void *lmp, void *handle, void *regfunc)
   const char *const abm = "fix foam/abm: adaptive Adams-Bashforth-Moulton steps";
   const char *const rkc = "fix foam/rkc: adaptive stabilised Runge-Kutta-Chebyshev steps";
   const char *const wall = "fix foam/wall: walls at faces of the box";
+  const char *const collision = "pair style bubble/collision: bubbles with inertia that collide";
+  const char *const rise = "fix bubble/rise: buoyancy, drag and added mass";
+  const char *const of_bubbles = "fix wall/bubble: walls for bubbles with inertia";
+  const char *const nve = "fix bubble/nve: motion of bubbles with inertia";
+  const char *const films = "fix bubble/films: made by pair style bubble/collision";
 
   pair.operator()<PairDurianFoam>("durian/foam", durian);
   fix.operator()<FixFoamCoarsen>("foam/coarsen", coarsen);
@@ -149,52 +160,43 @@ void lammpsplugin_init(void *lmp, void *handle, void *regfunc)
   fix.operator()<FixFoamWall>("foam/wall", wall);
   compute.operator()<ComputeFoamBubble>("foam/bubble", bubble);
 
-#ifdef FOAM_KOKKOS
-  styles += ", each also with /kk";
+  pair.operator()<PairBubbleCollision>("bubble/collision", collision);
+  fix.operator()<FixBubbleRise>("bubble/rise", rise);
+  fix.operator()<FixWallBubble>("wall/bubble", of_bubbles);
+  fix.operator()<FixBubbleNVE>("bubble/nve", nve);
   brought = [](const char *, const std::string &) {
   };
-  pair.operator()<PairDurianFoamKokkos<LMPDeviceType>>("durian/foam/kk", durian);
-  fix.operator()<FixFoamCoarsenKokkos<LMPDeviceType>>("foam/coarsen/kk", coarsen);
-  fix.operator()<FixFoamContactsKokkos<LMPDeviceType>>("foam/contacts/kk", ages);
-  fix.operator()<FixFoamFlowKokkos<LMPDeviceType>>("foam/flow/kk", flow);
-  fix.operator()<FixFoamABMKokkos<LMPDeviceType>>("foam/abm/kk", abm);
-  fix.operator()<FixFoamRKCKokkos<LMPDeviceType>>("foam/rkc/kk", rkc);
-  fix.operator()<FixFoamWallKokkos<LMPDeviceType>>("foam/wall/kk", wall);
-  compute.operator()<ComputeFoamBubbleKokkos<LMPDeviceType>>("foam/bubble/kk", bubble);
+  fix.operator()<FixBubbleFilms>("bubble/films", films);
 
-  pair.operator()<PairDurianFoamKokkos<LMPDeviceType>>("durian/foam/kk/device", durian);
-  fix.operator()<FixFoamCoarsenKokkos<LMPDeviceType>>("foam/coarsen/kk/device", coarsen);
-  fix.operator()<FixFoamContactsKokkos<LMPDeviceType>>("foam/contacts/kk/device", ages);
-  fix.operator()<FixFoamFlowKokkos<LMPDeviceType>>("foam/flow/kk/device", flow);
-  fix.operator()<FixFoamABMKokkos<LMPDeviceType>>("foam/abm/kk/device", abm);
-  fix.operator()<FixFoamRKCKokkos<LMPDeviceType>>("foam/rkc/kk/device", rkc);
-  fix.operator()<FixFoamWallKokkos<LMPDeviceType>>("foam/wall/kk/device", wall);
-  compute.operator()<ComputeFoamBubbleKokkos<LMPDeviceType>>("foam/bubble/kk/device", bubble);
-
-  pair.operator()<PairDurianFoamKokkos<LMPHostType>>("durian/foam/kk/host", durian);
-  fix.operator()<FixFoamCoarsenKokkos<LMPHostType>>("foam/coarsen/kk/host", coarsen);
-  fix.operator()<FixFoamContactsKokkos<LMPHostType>>("foam/contacts/kk/host", ages);
-  fix.operator()<FixFoamFlowKokkos<LMPHostType>>("foam/flow/kk/host", flow);
-  fix.operator()<FixFoamABMKokkos<LMPHostType>>("foam/abm/kk/host", abm);
-  fix.operator()<FixFoamRKCKokkos<LMPHostType>>("foam/rkc/kk/host", rkc);
-  fix.operator()<FixFoamWallKokkos<LMPHostType>>("foam/wall/kk/host", wall);
-  compute.operator()<ComputeFoamBubbleKokkos<LMPHostType>>("foam/bubble/kk/host", bubble);
-  brought = told;
+#ifdef FOAM_KOKKOS
+  static std::deque<std::string> names;    // LAMMPS keeps pointers to them
+  auto kokkos = [&]<class Device>(const std::string &suffix) {
+    auto kk = [&](const char *name) {
+      return names.emplace_back(name + suffix).c_str();
+    };
+    pair.operator()<PairDurianFoamKokkos<Device>>(kk("durian/foam"), durian);
+    fix.operator()<FixFoamCoarsenKokkos<Device>>(kk("foam/coarsen"), coarsen);
+    fix.operator()<FixFoamContactsKokkos<Device>>(kk("foam/contacts"), ages);
+    fix.operator()<FixFoamFlowKokkos<Device>>(kk("foam/flow"), flow);
+    fix.operator()<FixFoamABMKokkos<Device>>(kk("foam/abm"), abm);
+    fix.operator()<FixFoamRKCKokkos<Device>>(kk("foam/rkc"), rkc);
+    fix.operator()<FixFoamWallKokkos<Device>>(kk("foam/wall"), wall);
+    compute.operator()<ComputeFoamBubbleKokkos<Device>>(kk("foam/bubble"), bubble);
+    pair.operator()<PairBubbleCollisionKokkos<Device>>(kk("bubble/collision"), collision);
+    fix.operator()<FixBubbleRiseKokkos<Device>>(kk("bubble/rise"), rise);
+    fix.operator()<FixWallBubbleKokkos<Device>>(kk("wall/bubble"), of_bubbles);
+    fix.operator()<FixBubbleNVEKokkos<Device>>(kk("bubble/nve"), nve);
+    fix.operator()<FixBubbleFilmsKokkos<Device>>(kk("bubble/films"), films);
+  };
+  kokkos.operator()<LMPDeviceType>("/kk");
+  kokkos.operator()<LMPDeviceType>("/kk/device");
+  kokkos.operator()<LMPHostType>("/kk/host");
+  styles += ", each also with /kk";
 #endif
+  brought = told;
 
-  pair.operator()<PairBubbleCollision>(
-      "bubble/collision", "pair style bubble/collision: bubbles with inertia that collide");
-  fix.operator()<FixBubbleRise>("bubble/rise", "fix bubble/rise: buoyancy, drag and added mass");
-  fix.operator()<FixWallBubble>("wall/bubble", "fix wall/bubble: walls for bubbles with inertia");
-  fix.operator()<FixBubbleNVE>("bubble/nve", "fix bubble/nve: motion of bubbles with inertia");
   compute.operator()<ComputeBubbleCollision>(
       "bubble/collision", "compute bubble/collision: forces on each bubble by term");
-  brought = [](const char *, const std::string &) {
-  };
-  fix.operator()<FixBubbleFilms>("bubble/films",
-                                 "fix bubble/films: made by pair style bubble/collision");
-  brought = told;
-
   command.operator()<CreateFoam>("create_foam", "create_foam: a box, and bubbles in it");
   command.operator()<RelaxFoam>("relax_foam", "relax_foam: to rest, at a gas fraction or pressure");
 

@@ -19,7 +19,6 @@
 #include "force.h"
 #include "memory.h"
 #include "modify.h"
-#include "neighbor.h"
 
 #include <algorithm>
 
@@ -52,6 +51,15 @@ PairBubbleCollision::~PairBubbleCollision()
 PairBubbleCollision *PairBubbleCollision::of(LAMMPS *lmp)
 {
   return dynamic_cast<PairBubbleCollision *>(lmp->force->pair_match("bubble/collision", 0));
+}
+
+void PairBubbleCollision::check_place(const char *name, int its_kokkosable, int its_space) const
+{
+  if (its_kokkosable != kokkosable || (kokkosable && its_space != execution_space))
+    error->all(FLERR,
+               "{} and pair style bubble/collision must run in the same place: use the suffix kk "
+               "for all styles of bubbles or for none",
+               name);
 }
 
 /* ----------------------------------------------------------------------
@@ -115,15 +123,16 @@ void PairBubbleCollision::init_style()
 
   if (exact && table.empty()) table = Bubble::film_table();
   model.integral.first = exact ? table.data() : nullptr;
-  neighbor->add_request(this, NeighConst::REQ_FULL);
+  request_list();
 
   const bool remembers = model.stop == Bubble::Stop::CONTACT;
   films = dynamic_cast<FixBubbleFilms *>(modify->get_fix_by_id(FILMS));
   if (remembers && !films)
-    films =
-        dynamic_cast<FixBubbleFilms *>(modify->add_fix(fmt::format("{} all bubble/films", FILMS)));
+    films = dynamic_cast<FixBubbleFilms *>(
+        modify->add_fix(fmt::format("{} all {}", FILMS, style_of_films())));
   if (!remembers) films = nullptr;
 
+  host_reads();
   std::vector<double> mine(atom->ntypes + 1, 0.0);
   for (int i = 0; i < atom->nlocal; i++)
     mine[atom->type[i]] = std::max(mine[atom->type[i]], atom->radius[i]);
@@ -148,6 +157,7 @@ double PairBubbleCollision::init_one(int i, int j)
 
 void PairBubbleCollision::check_radii()
 {
+  host_reads();
   for (int i = 0; i < atom->nlocal; i++)
     if (atom->radius[i] > largest[atom->type[i]] || !(atom->radius[i] > 0.0))
       error->one(FLERR,
@@ -166,42 +176,53 @@ void PairBubbleCollision::compute(int eflag, int vflag)
   if (neighbor->ago == 0) check_radii();
   if (eflag_atom) looks.use(atom->nmax);
   if (vflag_atom) stress.use(atom->nmax);
-
-  FoamHost space(lmp);
-  if (evflag)
-    collide<true>(space);
-  else
-    collide<false>(space);
+  if (list_is_new()) take_list();
+  collide();
   if (evflag) take_totals();
 }
 
-template <bool TALLY, class Space> void PairBubbleCollision::collide(Space &space)
+bool PairBubbleCollision::list_is_new()
 {
-  auto functor = loop<TALLY>(space, eflag_atom);
-  if (vflag_atom)
-    for (int k = 0; k < 6; k++) functor.virial[k] = space.column(stress, k);
-  totals = Bubble::CollisionTotals();
-  auto run = [&](const Bubble::Films &its) {
-    functor.films = its;
-    const auto found = space.template totals<Bubble::CollisionTotals>(list->inum, functor);
-    totals.join(found);
-    return static_cast<int>(found.most);
-  };
-  if (films)
-    films->evaluate(space, atom->nmax, run);
-  else
-    run({});
+  if (listed_ncalls == neighbor->ncalls && listed_lastcall == neighbor->lastcall) return false;
+  listed_ncalls = neighbor->ncalls;
+  listed_lastcall = neighbor->lastcall;
+  return true;
+}
+
+void PairBubbleCollision::request_list()
+{
+  neighbor->add_request(this, NeighConst::REQ_FULL);
+}
+
+void PairBubbleCollision::take_list()
+{
+  FoamHost space(lmp);
+  near_list.take(list->inum, list->ilist, list->numneigh, list->firstneigh, atom->nlocal,
+                 comes_near(space.bubbles()));
+}
+
+FoamHalfList<true> PairBubbleCollision::rows() const
+{
+  return {list->ilist, near_list.numneigh.data(), near_list.firstneigh.data(), atom->nlocal};
+}
+
+void PairBubbleCollision::collide()
+{
+  FoamHost space(lmp);
+  collide_in(space, rows(), list->inum);
 }
 
 FoamColumns &PairBubbleCollision::look()
 {
   looks.use(atom->nmax);
-  FoamHost space(lmp);
-  auto functor = loop<true>(space, true);
-  functor.moves = false;
-  if (films) functor.films = films->now(space);
-  space.totals<Bubble::CollisionTotals>(list->inum, functor);
+  fill_looks();
   return looks;
+}
+
+void PairBubbleCollision::fill_looks()
+{
+  FoamHost space(lmp);
+  fill_looks_in(space, rows(), list->inum);
 }
 
 // energies and powers of this rank: compute pair adds those of all
@@ -272,5 +293,5 @@ void PairBubbleCollision::write_data_all(FILE *fp)
 
 double PairBubbleCollision::memory_usage()
 {
-  return Pair::memory_usage() + bytes(all_columns);
+  return Pair::memory_usage() + bytes(all_columns) + near_list.bytes();
 }

@@ -23,6 +23,7 @@ PairStyle(bubble/collision,PairBubbleCollision);
 
 #include "atom.h"
 #include "neigh_list.h"
+#include "neighbor.h"
 #include "pair.h"
 
 #include <vector>
@@ -55,8 +56,11 @@ class PairBubbleCollision : public Pair {
   bool exact = false;    // the integral of the film
   const Bubble::CollisionTotals &of_this_rank() const { return totals; }
 
-  FoamColumns &
-  look();    // the terms of each bubble in the present state; velocities of ghosts are up to date
+  // the terms of each bubble in the present state; velocities of ghosts are up to date
+
+  FoamColumns &look();
+  void check_place(const char *style, int kokkosable, int execution_space) const;    // or an error
+  virtual void host_reads() {}    // what LAMMPS keeps of bubbles
 
  protected:
   FoamColumnList all_columns;
@@ -70,21 +74,75 @@ class PairBubbleCollision : public Pair {
   void allocate();
   void check_radii();
   void take_totals();
-  template <bool TALLY, class Space> auto loop(Space &space, bool looked);
-  template <bool TALLY, class Space> void collide(Space &space);
+  bool list_is_new();
+  template <class B> auto comes_near(const B &b) const
+  {
+    return Foam::ComesNear<B, Bubble::ReachOfCollision>{b, {model}, neighbor->skin};
+  }
+
+  virtual const char *style_of_films() const { return "bubble/films"; }
+  virtual void request_list();
+  virtual void take_list();
+  virtual void collide();
+  virtual void fill_looks();
+  template <bool TALLY, class Space, class List> auto loop(Space &, const List &, bool looked);
+  template <class Space, class List> void collide_in(Space &, const List &, int nrows);
+  template <bool TALLY, class Space, class List>
+  void collide_tallied_in(Space &, const List &, int nrows);
+  template <class Space, class List> void fill_looks_in(Space &, const List &, int nrows);
+
+ private:
+  FoamShortList near_list;
+  bigint listed_ncalls = -1, listed_lastcall = -1;    // by LAMMPS' counters
+  FoamHalfList<true> rows() const;
 };
 
-template <bool TALLY, class Space> auto PairBubbleCollision::loop(Space &space, bool looked)
+template <bool TALLY, class Space, class List>
+auto PairBubbleCollision::loop(Space &space, const List &rows, bool looked)
 {
-  using List = FoamHalfList<true>;
   Bubble::Looks terms;
   if (looked)
     for (int k = 0; k < Bubble::LOOKS; k++) terms.column[k] = space.column(looks, k);
   return Bubble::Collide<typename Space::Bubbles, List, TALLY>{
-      space.bubbles(),
-      {list->ilist, list->numneigh, list->firstneigh, atom->nlocal},
-      {model, terms, looked},
-      {}};
+      space.bubbles(), rows, {model, terms, looked}, {}};
+}
+
+template <class Space, class List>
+void PairBubbleCollision::collide_in(Space &space, const List &rows, int nrows)
+{
+  totals = Bubble::CollisionTotals();
+  if (evflag)
+    collide_tallied_in<true>(space, rows, nrows);
+  else
+    collide_tallied_in<false>(space, rows, nrows);
+}
+
+template <bool TALLY, class Space, class List>
+void PairBubbleCollision::collide_tallied_in(Space &space, const List &rows, int nrows)
+{
+  auto functor = loop<TALLY>(space, rows, eflag_atom);
+  using Totals = typename decltype(functor)::Totals;
+  if (vflag_atom)
+    for (int k = 0; k < 6; k++) functor.virial[k] = space.column(stress, k);
+  auto run = [&](const Bubble::Films &its) {
+    functor.films = its;
+    const auto found = space.template totals<Totals>(nrows, functor);
+    totals.join(found);
+    return static_cast<int>(found.most);
+  };
+  if (films)
+    films->evaluate(space, atom->nmax, run);
+  else
+    run({});
+}
+
+template <class Space, class List>
+void PairBubbleCollision::fill_looks_in(Space &space, const List &rows, int nrows)
+{
+  auto functor = loop<true>(space, rows, true);
+  functor.moves = false;
+  if (films) functor.films = films->now(space);
+  space.template totals<Bubble::CollisionTotals>(nrows, functor);
 }
 
 }    // namespace LAMMPS_NS

@@ -72,10 +72,9 @@ void PairDurianFoam::take_list()
   if (listed_ncalls == neighbor->ncalls && listed_lastcall == neighbor->lastcall) return;
   listed_ncalls = neighbor->ncalls;
   listed_lastcall = neighbor->lastcall;
-  const double factor = range(), skin = neighbor->skin;
-  const Foam::HostBubbles b = FoamHost(lmp).bubbles();
   near_list.take(list->inum, list->ilist, list->numneigh, list->firstneigh, atom->nlocal,
-                 [=](int i, int j) { return Foam::comes_near(b, i, j, factor, skin); });
+                 Foam::ComesNear<Foam::HostBubbles, Foam::ReachOfContact>{
+                     FoamHost(lmp).bubbles(), {range()}, neighbor->skin});
 }
 
 double PairDurianFoam::memory_usage()

@@ -74,6 +74,7 @@ template <class DeviceType> struct FoamKokkosBubbles {
   typename AT::t_kkfloat_1d radius;
   typename AT::t_int_1d type;
   typename AT::t_tagint_1d tag;
+  typename AT::t_kkfloat_1d mass;    // none, where the atom style has none
 
   double *residual[3];    // what the first lacks of double precision
 
@@ -155,7 +156,7 @@ template <class DeviceType> class FoamKokkos : protected Pointers {
 
   Bubbles bubbles() const
   {
-    atomKK->sync(SPACE, X_MASK | V_MASK | F_MASK | RADIUS_MASK | TYPE_MASK | TAG_MASK);
+    atomKK->sync(SPACE, X_MASK | V_MASK | F_MASK | RADIUS_MASK | TYPE_MASK | TAG_MASK | RMASS_MASK);
     atomKK->modified(SPACE, written);
     const auto x = atomKK->k_x.view<DeviceType>();
     const auto v = atomKK->k_v.view<DeviceType>();
@@ -163,13 +164,15 @@ template <class DeviceType> class FoamKokkos : protected Pointers {
     const auto radius = atomKK->k_radius.view<DeviceType>();
     const auto type = atomKK->k_type.view<DeviceType>();
     const auto tag = atomKK->k_tag.view<DeviceType>();
+    const auto mass = atomKK->k_rmass.view<DeviceType>();
     if constexpr (AS_WITHOUT) {
-      return {{x.data()}, {v.data()}, {f.data()}, {radius.data()}, {type.data()}, {tag.data()}};
+      return {{x.data()},    {v.data()},   {f.data()},   {radius.data()},
+              {type.data()}, {tag.data()}, {mass.data()}};
     } else {
       auto residual = [&](int k) {
         return residuals ? residuals->on_device(k) : nullptr;
       };
-      return {x, v, f, radius, type, tag, {residual(0), residual(1), residual(2)}};
+      return {x, v, f, radius, type, tag, mass, {residual(0), residual(1), residual(2)}};
     }
   }
   Foam::Members members(int group) const

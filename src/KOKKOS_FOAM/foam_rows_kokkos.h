@@ -43,6 +43,12 @@ template <class DeviceType> struct FoamRows {
   }
 };
 
+template <class DeviceType> double bytes(const FoamRows<DeviceType> &rows)
+{
+  return sizeof(int) *
+         double(rows.first.extent(0) + rows.shared.extent(0) + rows.partner.extent(0));
+}
+
 // ---------------------------------------------------------------------- how they are made
 
 namespace FoamMakeRows {
@@ -50,23 +56,15 @@ namespace FoamMakeRows {
 // The list has a pair of owned bubbles once, in the row of either; one of an owned bubble and a
 // ghost in the owned one's.
 
-template <class DeviceType> struct ListedPairs {
+template <class DeviceType, class Near> struct ListedPairs {
   using AT = ArrayTypes<DeviceType>;
   typename AT::t_int_1d ilist, numneigh;
   typename AT::t_neighbors_2d neighbors;
   FoamRows<DeviceType> rows;
   typename FoamRows<DeviceType>::Numbers filled;    // single pairs of a row so far
   int nlocal, chunk;
-
-  // lists by the cutoff of types have more pairs than come near: those within range (R_i + R_j) + skin are taken; a
-  // range of 0 takes all
-
-  typename FoamKokkos<DeviceType>::Bubbles b;
-  double range, skin;
-  KOKKOS_INLINE_FUNCTION bool near(int i, int j) const
-  {
-    return range == 0.0 || Foam::comes_near(b, i, j, range, skin);
-  }
+  typename AT::t_tagint_1d tag;
+  Near near;    // is a pair taken? See Foam::ComesNear
 
   struct Chunk {
     int begin, end;
@@ -80,7 +78,7 @@ template <class DeviceType> struct ListedPairs {
   }
 };
 
-template <class DeviceType> struct CountPairs : ListedPairs<DeviceType> {
+template <class DeviceType, class Near> struct CountPairs : ListedPairs<DeviceType, Near> {
   static constexpr const char *NAME = "foam: count pairs";
   KOKKOS_INLINE_FUNCTION void operator()(int n) const
   {
@@ -102,7 +100,7 @@ template <class DeviceType> struct CountPairs : ListedPairs<DeviceType> {
   }
 };
 
-template <class DeviceType> struct PlaceRows : ListedPairs<DeviceType> {
+template <class DeviceType, class Near> struct PlaceRows : ListedPairs<DeviceType, Near> {
   using value_type = int;
   KOKKOS_INLINE_FUNCTION void operator()(int i, int &begin, bool final) const
   {
@@ -115,7 +113,7 @@ template <class DeviceType> struct PlaceRows : ListedPairs<DeviceType> {
   }
 };
 
-template <class DeviceType> struct FillRows : ListedPairs<DeviceType> {
+template <class DeviceType, class Near> struct FillRows : ListedPairs<DeviceType, Near> {
   static constexpr const char *NAME = "foam: fill rows";
   KOKKOS_INLINE_FUNCTION void operator()(int n) const
   {
@@ -143,9 +141,8 @@ template <class DeviceType> struct FillRows : ListedPairs<DeviceType> {
 // Threads fill a row in any order, and LAMMPS may number ghosts in any order on a device: in order
 // of partners' IDs, the sums of a row come out the same every time.
 
-template <class DeviceType> struct SortRows : ListedPairs<DeviceType> {
+template <class DeviceType, class Near> struct SortRows : ListedPairs<DeviceType, Near> {
   static constexpr const char *NAME = "foam: sort rows";
-  typename ArrayTypes<DeviceType>::t_tagint_1d tag;
   KOKKOS_INLINE_FUNCTION void operator()(int i) const
   {
     const int begin = this->rows.first(i), end = this->rows.first(i + 1);
@@ -154,7 +151,7 @@ template <class DeviceType> struct SortRows : ListedPairs<DeviceType> {
   }
   KOKKOS_INLINE_FUNCTION bool behind(int j, int k) const
   {
-    return tag(j) != tag(k) ? tag(j) > tag(k) : j > k;
+    return this->tag(j) != this->tag(k) ? this->tag(j) > this->tag(k) : j > k;
   }
   KOKKOS_INLINE_FUNCTION void sort(int begin, int end) const
   {
@@ -168,7 +165,49 @@ template <class DeviceType> struct SortRows : ListedPairs<DeviceType> {
   }
 };
 
+struct All {
+  KOKKOS_INLINE_FUNCTION bool operator()(int, int) const { return true; }
+};
+
 }    // namespace FoamMakeRows
+
+// tag: IDs, where they run
+
+template <class DeviceType, class Near>
+void foam_make_rows(const FoamKokkos<DeviceType> &space, NeighList *list,
+                    typename ArrayTypes<DeviceType>::t_tagint_1d tag, int nlocal, int nmax,
+                    int chunk, const Near &near, FoamRows<DeviceType> &rows)
+{
+  using namespace FoamMakeRows;
+  using Numbers = typename FoamRows<DeviceType>::Numbers;
+  if (static_cast<int>(rows.shared.extent(0)) < nlocal || rows.first.extent(0) == 0) {
+    rows.first = Numbers("foam: first of rows", nmax + 1);
+    rows.shared = Numbers("foam: shared of rows", nmax);
+  } else
+    Kokkos::deep_copy(DeviceType(), rows.shared, 0);
+
+  auto *listed = static_cast<NeighListKokkos<DeviceType> *>(list);
+  ListedPairs<DeviceType, Near> pairs{listed->d_ilist,
+                                      listed->d_numneigh,
+                                      listed->d_neighbors,
+                                      rows,
+                                      Numbers("foam: filled of rows", nlocal),
+                                      nlocal,
+                                      chunk,
+                                      tag,
+                                      near};
+  space.for_each(list->inum, CountPairs<DeviceType, Near>{pairs});
+  int total = 0;
+  Kokkos::parallel_scan("foam: place rows", Kokkos::RangePolicy<DeviceType>(0, nlocal + 1),
+                        PlaceRows<DeviceType, Near>{pairs}, total);
+  if (static_cast<int>(rows.partner.extent(0)) < total)
+    rows.partner = Numbers(Kokkos::view_alloc("foam: partners", Kokkos::WithoutInitializing),
+                           static_cast<size_t>(1.1 * total));
+  pairs.rows = rows;
+  space.for_each(list->inum, FillRows<DeviceType, Near>{pairs});
+  space.for_each(nlocal, SortRows<DeviceType, Near>{pairs});
+}
+
 }    // namespace LAMMPS_NS
 
 #endif

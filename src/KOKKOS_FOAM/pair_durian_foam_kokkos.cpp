@@ -126,39 +126,16 @@ template <class DeviceType> void PairDurianFoamKokkos<DeviceType>::make_rows()
   const int threads = halves ? DeviceType().concurrency() : nlocal;
   chunk = MAX(1, (nlocal + threads - 1) / MAX(1, threads));
 
-  if (static_cast<int>(rows.shared.extent(0)) < nlocal || rows.first.extent(0) == 0) {
-    rows.first = typename FoamRows<DeviceType>::Numbers("durian/foam:first", atom->nmax + 1);
-    rows.shared = typename FoamRows<DeviceType>::Numbers("durian/foam:shared", atom->nmax);
-  } else
-    Kokkos::deep_copy(DeviceType(), rows.shared, 0);
-
-  auto *listed = static_cast<NeighListKokkos<DeviceType> *>(list);
-  const FoamMakeRows::ListedPairs<DeviceType> pairs{
-      listed->d_ilist,
-      listed->d_numneigh,
-      listed->d_neighbors,
-      rows,
-      typename FoamRows<DeviceType>::Numbers("durian/foam:filled", nlocal),
-      nlocal,
-      chunk,
-      space.bubbles(),
-      range() > 1.0 ? range() : 0.0,
-      neighbor->skin};
-
-  space.for_each(list->inum, FoamMakeRows::CountPairs<DeviceType>{pairs});
-  int total = 0;
-  Kokkos::parallel_scan("foam: place rows", Kokkos::RangePolicy<DeviceType>(0, nlocal + 1),
-                        FoamMakeRows::PlaceRows<DeviceType>{pairs}, total);
-  if (static_cast<int>(rows.partner.extent(0)) < total)
-    rows.partner = typename FoamRows<DeviceType>::Numbers(
-        Kokkos::view_alloc("durian/foam:partner", Kokkos::WithoutInitializing),
-        static_cast<size_t>(1.1 * total));
-  FoamMakeRows::ListedPairs<DeviceType> placed = pairs;
-  placed.rows = rows;
-  space.for_each(list->inum, FoamMakeRows::FillRows<DeviceType>{placed});
   atomKK->sync(execution_space, TAG_MASK);
-  space.for_each(nlocal,
-                 FoamMakeRows::SortRows<DeviceType>{placed, atomKK->k_tag.view<DeviceType>()});
+  const auto tag = atomKK->k_tag.view<DeviceType>();
+  auto make = [&](const auto &near) {
+    foam_make_rows(space, list, tag, nlocal, atom->nmax, chunk, near, rows);
+  };
+  if (range() > 1.0)
+    make(Foam::ComesNear<typename FoamKokkos<DeviceType>::Bubbles, Foam::ReachOfContact>{
+        space.bubbles(), {range()}, neighbor->skin});
+  else
+    make(FoamMakeRows::All());    // the list knows sizes
 }
 
 // each bubble's index goes the way of its other numbers, also from ghost to ghost
@@ -464,9 +441,7 @@ void PairDurianFoamKokkos<DeviceType>::gather_in(const Law &chosen, unsigned wha
 
 template <class DeviceType> double PairDurianFoamKokkos<DeviceType>::memory_usage()
 {
-  return PairDurianFoam::memory_usage() +
-         sizeof(int) *
-             double(rows.first.extent(0) + rows.shared.extent(0) + rows.partner.extent(0));
+  return PairDurianFoam::memory_usage() + bytes(rows);
 }
 
 namespace LAMMPS_NS {

@@ -5,9 +5,7 @@ test_bubble_motion.py.  The formulae one by one: physics/test_bubble.cpp."""
 import numpy as np
 import pytest
 
-from runner import BACKENDS, PLAIN, PRECISE, Runner, data_file
-
-HOSTS = [name for name in PLAIN if not BACKENDS[name].kokkos]    # there are no KOKKOS styles yet
+from runner import PLAIN, PRECISE, Runner, data_file
 
 SIGMA, MU, RHO, G, GAS = 0.03, 1e-3, 1000.0, 9.81, 1.2    # water with soap
 MM, UM = 1e-3, 1e-6
@@ -25,14 +23,6 @@ read_data    data
 set          group all density {density}
 neighbor     {skin} bin
 """
-@pytest.fixture(params=HOSTS)
-def lmp(request, tmp_path):
-    return Runner(request.param, tmp_path)
-
-
-@pytest.fixture(params=HOSTS)
-def bitwise_lmp(request, tmp_path):
-    return Runner(request.param, tmp_path)
 
 
 def wrong(why):

@@ -6,7 +6,6 @@ from scipy.integrate import solve_ivp
 from scipy.interpolate import CubicHermiteSpline
 from scipy.optimize import brentq
 
-from test_bubble import bitwise_lmp, lmp    # noqa: F401  (fixtures)
 from test_bubble import GAS, MM, MU, R6, RHO, SIGMA, UM, G, data, elastic, term, text, wrong
 
 LIQUID = f"{RHO} {MU} 0 0 -{G}"    # and upwards for bubbles
