@@ -3,8 +3,8 @@
 
     python3 plot.py DIR      writes numbers.csv, profile.csv, terms.csv and figures (.pdf, .png) in DIR
 
-Liquid fraction: 1 minus the volume of the spheres in a slice, exact for each sphere; overlaps count twice, as the volume
-of the gas that they stand for does. Depths are below the lid. The prediction of the profile takes the osmotic
+Liquid fraction: 1 minus the volume of the spheres in a slice, exact for each sphere. Overlaps count twice, since a
+bubble has the gas of its whole sphere. Depths are below the lid. The prediction of the profile takes the osmotic
 pressure Pi of osmotic.csv: dPi/dz = (rho - rho_gas) g phi, and at the lid Pi carries all bubbles. It has no
 parameter. The law of real foams is that of Maestro et al., Soft Matter 9, 2531 (2013), for disordered ones.
 """
@@ -267,7 +267,7 @@ def draw_column(directory: Path, out: Path, state: Series | None) -> None:
 
 def cost(log: Path, bubbles: float) -> tuple[int, float]:
     """Steps of the rise, and microseconds of CPU a bubble and step: LAMMPS says which part of the time it had."""
-    found = re.search(r"Loop time of (\S+) on (\d+) procs for (\d+) steps.*\n\n?.*?([\d.]+)% CPU use", log.read_text(), re.S)
+    found = re.search(r"Loop time of (\S+) on (\d+) procs for (\d+) steps[^%]*?([\d.]+)% CPU use", log.read_text())
     if not found:
         raise Unusable(f"{log} has no 'CPU use'")
     steps = int(found[3])

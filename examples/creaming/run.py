@@ -3,7 +3,7 @@
 
     python3 run.py --lmp "mpiexec -n 2 lmp" --out DIR                     10^5 bubbles
     python3 run.py --lmp "mpiexec -n 2 lmp" --out DIR --bubbles 30000     fewer
-    python3 run.py --lmp lmp --out DIR --only terms                       what each term costs, and changes: 2000 bubbles
+    python3 run.py --lmp lmp --out DIR --only terms                       what each term costs: 2000 bubbles
 
 A run that is complete is not done again, so that this can be stopped and started; --dry-run lists the runs. plot.py
 needs the Python package lammps_foam (pip install . in the top directory).
@@ -27,16 +27,16 @@ TERMS: dict[str, dict[str, str]] = {     # what differs from the settings of in.
     "reach 1": {"reach": "1.0"},
     "no lubrication": {"lubrication": "no"},
     "no viscous force": {"viscous": "none", "lubrication": "no"},
-    "derived": {"viscous": "derived", "dt": "1e-5", "sample": "200", "report": "5000"},
     "tangential": {"tangential": "all"},
     "film yes": {"film": "yes"},
     "h0 1e-5": {"h0": "1.0e-5"},
     "spring": {"elastic": "spring"},
     "one type": {"large": "9"},
     "dt 5e-5": {"dt": "5e-5", "sample": "40", "report": "1000"},
-    "dt 2e-4": {"dt": "2e-4", "sample": "10", "report": "250"},
+    "dt 1.5e-4": {"dt": "1.5e-4"},
     "tol 1e-3": {"tol": "1e-3"},
     "tol 1e-4": {"tol": "1e-4"},
+    "derived": {"viscous": "derived", "dt": "1e-5", "sample": "200", "report": "5000"},
 }
 
 
