@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 
 import runner as styles
-from test_kokkos import SCENES, assert_same, of_base_styles, scene    # noqa: F401 (a fixture)
+import test_bubble_kokkos as inertia
+from test_kokkos import assert_same, of_base_styles, scene    # noqa: F401 (a fixture)
 
 styles.BACKENDS["poisoned"] = styles.Backend("FOAM_LMP_POISONED",
                                              f"-k on t 2 -sf kk -pk kokkos {styles.ON_DEVICE}")
@@ -18,7 +19,8 @@ styles.BACKENDS["poisoned host"] = styles.Backend("FOAM_LMP_POISONED", "-k on t 
 
 
 def run(runner, name, then="", **more):
-    text, data, ranks, _ = scene(name)
+    family, _, its = name.rpartition(": ")
+    text, data, ranks = (inertia.scene(its) if family == "inertia" else scene(name))[:3]
     return runner(text + then, files=data, ranks=ranks, **more)
 
 
@@ -36,10 +38,29 @@ NAMES = ["plain", "3D", "drag between bubbles", "drag between bubbles 3D on 2 ra
          "among others, rkc, neighbor drag, 2 ranks"]
 
 
+# of bubbles with inertia
+INERTIA = ["inertia: " + name for name in (
+    "exact integral", "region", "flow", "implicit drag", "some move", "sorted often", "energies and stresses",
+    "chosen steps, 2 ranks", "pair style again", "bubbles deleted", "restarts written")]
+WAYS = pytest.mark.parametrize("way", ["poisoned", "poisoned host"])
+
+
+@WAYS
 @pytest.mark.parametrize("name", NAMES)
-@pytest.mark.parametrize("way", ["poisoned", "poisoned host"])
 def test_same_as_elsewhere(tmp_path, of_base_styles, name, way):
     assert_same(of_base_styles(name), run(styles.Runner(way, tmp_path), name), scene(name)[3])
+
+
+@pytest.fixture(scope="session")
+def inertia_of_base_styles(tmp_path_factory):
+    """function: what the base styles make of a scene"""
+    return lambda name: run(styles.Runner("wheel", tmp_path_factory.mktemp("inertia")), name)
+
+
+@WAYS
+@pytest.mark.parametrize("name", INERTIA)
+def test_same_as_elsewhere_with_inertia(tmp_path, inertia_of_base_styles, name, way):
+    inertia.assert_same(inertia_of_base_styles(name), run(styles.Runner(way, tmp_path), name), inertia.SHORT)
 
 
 # ---- mistakes -----------------------------------------------------------------------------------
@@ -56,6 +77,9 @@ COLUMNS = {
     "velocities with drag between bubbles": "drag between bubbles",
     "contact records": "contact ages", "contact records on trial": "contact ages",
     "ages of contacts": "contact ages", "stress at walls": "foam walls", "lengths of paths": "paths",
+    "steps of bubbles": "inertia: region", "liquid around bubbles": "inertia: flow",
+    "forces of the liquid": "inertia: region", "terms of collisions": "inertia: region",
+    "stress of collisions": "inertia: energies and stresses",
 }
 ELSEWHERE = {"residuals of places"}    # in use in single precision alone
 
@@ -64,8 +88,6 @@ def test_all_columns_are_here():
     """Those that the sources declare."""
     declared = set()
     for path in (Path(os.environ["FOAM_SOURCE_DIR"]) / "src").rglob("*.h"):
-        if "_bubble_" in path.stem:    # bubbles with inertia have no KOKKOS styles yet
-            continue
         declared |= set(re.findall(r'FoamColumns \w+\{all_columns, "([^"]*)"', path.read_text()))
     assert declared == COLUMNS.keys() | ELSEWHERE
 

@@ -5,7 +5,7 @@ test_bubble_motion.py.  The formulae one by one: physics/test_bubble.cpp."""
 import numpy as np
 import pytest
 
-from runner import PLAIN, PRECISE, Runner, data_file
+from runner import PRECISE, data_file
 
 SIGMA, MU, RHO, G, GAS = 0.03, 1e-3, 1000.0, 9.81, 1.2    # water with soap
 MM, UM = 1e-3, 1e-6
