@@ -3,10 +3,11 @@
 
     python3 causes.py --out DIR                    foams of 10 000 bubbles: half an hour on one core
     python3 causes.py --out DIR --full RUNS        compares them with the runs of run.py --full in RUNS, too
+    python3 causes.py --out DIR --full RUNS --figures FOLDER --no-pdf
 
 Each case changes one thing of the first one and is done with several seeds: its change is the mean over seeds of the
 difference to the first case with the same seed, that is, the same start. All exponents of a gas fraction are taken in
-the same range of tau. A run that is complete is not done again.
+the same range of tau; the figure has them in half a decade. A run that is complete is not done again.
 """
 import argparse
 from dataclasses import replace
@@ -17,32 +18,35 @@ import sys
 
 import numpy as np
 
-from common import with_error
-from lammps_foam.analysis import growth, runs, table
+from common import LAST, Place, with_error
+from lammps_foam.analysis import figure, growth, runs, table
 from run import Run
 
 BUBBLES, END = 10000, 100
 FROM, TO = 5.0, 40.0    # so many times fewer bubbles are left where the range of tau begins, and where it ends
+SHOWN_FROM = 5.0        # tau; before, the foam forgets its start
 CASES = {
     "as figure 4.1": {},
     "rkc 1e-4": {"tol": 1.0e-4},
     "abm 1e-5": {"integrator": "abm"},    # that of the thesis: largest error of all bubbles
     "kappa 0": {"kappa": 0.0},
+    "K 1e-4": {"K": 1.0e-4, "tol": 3.0e-4},    # slower exchange wants a smaller tolerance
 }
 WANTED = {    # of which as many as there are seeds, or the first few
-    1.00: {"as figure 4.1": 4, "kappa 0": 4, "rkc 1e-4": 3, "abm 1e-5": 2},
-    0.80: {"as figure 4.1": 4, "rkc 1e-4": 3, "abm 1e-5": 2},
     0.85: {"as figure 4.1": 4},
+    0.80: {"as figure 4.1": 4, "rkc 1e-4": 2},
+    1.00: {"as figure 4.1": 4, "kappa 0": 3, "rkc 1e-4": 3, "abm 1e-5": 2, "K 1e-4": 3},
 }
 
 
-def do(directory, phi, seed, *, tol=None, integrator="rkc", kappa=0.1):
+def do(directory, phi, seed, *, tol=None, integrator="rkc", kappa=0.1, K=1.0e-3):
     """A run, unless it is complete."""
     if (directory / "run" / "complete").exists():
         return
     directory.mkdir(parents=True, exist_ok=True)
-    run = replace(Run(directory.name, phi, BUBBLES, END, seed), kappa=kappa)
-    (directory / "foam.json").write_text(json.dumps(run.input(), indent=2) + "\n")
+    data = replace(Run(directory.name, phi, BUBBLES, END, seed), kappa=kappa).input()
+    data["constants"]["K"]["value"] = K
+    (directory / "foam.json").write_text(json.dumps(data, indent=2) + "\n")
     command = [sys.executable, "-c", "from lammps_foam.command import main; main()", "run", directory / "foam.json",
                "--out", directory / "run", "--integrator", integrator, *(["--tol", tol] if tol else [])]
     subprocess.run([str(word) for word in command], check=True, stdout=subprocess.DEVNULL)
@@ -75,44 +79,72 @@ def range_of_tau(series):
             min(runs.tau_of_N(one, one["N"][0] / TO) for one in series))
 
 
-def case_rows(phi, args):
-    rows, first, limits = [], [], (0.0, 0.0)
+def cases_of(phi, args):
+    """{(case, bubbles): series of its runs}, the runs of run.py --full included. Does what is missing."""
+    found = {}
     for case, seeds in WANTED[phi].items():
         directories = [args.out / f"phi{phi:.2f}-{case.replace(' ', '-')}-{seed}" for seed in args.seeds[:seeds]]
-        for directory, seed in zip(directories, args.seeds):
+        for directory, seed in zip(directories, args.seeds if not args.no_runs else []):
             print(directory.name, flush=True)
             do(directory, phi, seed, **CASES[case])
-        series = series_of(directories)
-        if not first:
-            first, limits = series, range_of_tau(series)
-        rows.append(row(phi, case, BUBBLES, series, first, limits))
-    large = sorted(args.full.glob(f"phi{phi:.2f}-*/run/complete")) if args.full else []
-    if large:
-        rows.append(row(phi, "larger", 100000, series_of([path.parent.parent for path in large]), first, limits))
-    return rows
+        complete = [directory for directory in directories if (directory / "run" / "complete").exists()]
+        if complete:
+            found[case, BUBBLES] = series_of(complete)
+    for pattern, case, bubbles in ((f"phi{phi:.2f}-*", "larger", 100000), (f"large{phi:.2f}?-????", "larger", 1000000)):
+        large = sorted(args.full.glob(f"{pattern}/run/complete")) if args.full else []
+        if large:    # of several gas fractions of 10^6 bubbles the nearest
+            found[case, bubbles] = series_of([path.parent.parent for path in (large if bubbles < 1e6 else large[:1])])
+    return found
+
+
+def rows_of(phi, found):
+    first = next(iter(found.values()))
+    limits = range_of_tau(first)
+    return [row(phi, case, bubbles, series, first, limits) for (case, bubbles), series in found.items()]
+
+
+def write(place, rows):
+    """causes.csv with all digits, causes-table.csv as it is shown."""
+    place.write(rows, "causes")
+    place.write([{":math:`\\varphi`": f"{one['phi']:.2f}", "case": one["case"], "bubbles": f"{one['bubbles']}",
+                  "runs": f"{one['runs']}", "range of :math:`\\tau`": f"{one['tau_from']:.0f} to {one['tau_to']:.0f}",
+                  "slope": with_error(one["beta"], one["beta_error"]),
+                  "change of the slope": "" if np.isnan(one["change"]) else
+                  with_error(one["change"], one["change_error"])} for one in rows], "causes-table")
+
+
+def draw(place, everything):
+    """Exponents in half a decade of tau, a panel for each gas fraction."""
+    fig, axes = figure.panels(1, len(everything), width=2.7, height=2.5)
+    for ax, (phi, found) in zip(axes, sorted(everything.items())):
+        for number, ((case, bubbles), series) in enumerate(found.items()):
+            end = min(runs.tau_of_N(one, LAST * one["N"][-1]) for one in series)
+            local = growth.local_exponents(series, growth.windows_of(series, 0.5, SHOWN_FROM, end, False))
+            ax.errorbar(local["tau"], local["beta"], local["error"], fmt="os^Dv<"[number % 6] + "-", lw=0.8, ms=2.5,
+                        color=f"C{number % 7}", label=f"{case}, {bubbles} bubbles")
+        for value in (1 / 3, 1 / 2):
+            ax.axhline(value, color="0.7", lw=0.8, zorder=0)
+        ax.set(xscale="log", xlabel=figure.TAU, title=rf"$\varphi$ = {phi:.2f}", ylim=(0.1, 0.55))
+        ax.legend(fontsize=5.5, loc="lower right")
+    axes[0].set(ylabel="exponent in half a decade")
+    place.save(fig, "thesis-causes", dpi=160)
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--out", default="causes", type=Path, metavar="DIR", help="where runs and causes.csv go")
+    parser.add_argument("--out", default="causes", type=Path, metavar="DIR", help="where the runs go")
     parser.add_argument("--full", type=Path, metavar="RUNS", help="runs of run.py --full, to compare with")
+    parser.add_argument("--figures", type=Path, metavar="FOLDER", help="where figure and tables go (default: --out)")
+    parser.add_argument("--no-runs", action="store_true", help="figure and tables of the runs that are complete")
+    parser.add_argument("--no-pdf", action="store_true", help="PNG alone")
     parser.add_argument("--seeds", nargs="+", type=int, default=[1, 2, 3, 4])
     args = parser.parse_args()
-    rows = []
-    for phi in WANTED:
-        rows += case_rows(phi, args)
-        write(rows, args.out)
-
-
-def write(rows, out):
-    """causes.csv with all digits, causes-table.csv as it is shown."""
-    table.write({key: [one[key] for one in rows] for key in rows[0]}, out / "causes.csv")
-    lines = [{":math:`\\varphi`": f"{one['phi']:.2f}", "case": one["case"], "bubbles": f"{one['bubbles']}",
-              "runs": f"{one['runs']}", "range of :math:`\\tau`": f"{one['tau_from']:.0f} to {one['tau_to']:.0f}",
-              "slope": with_error(one["beta"], one["beta_error"]),
-              "change of the slope": "" if np.isnan(one["change"]) else with_error(one["change"], one["change_error"])}
-             for one in rows]
-    table.write({key: [one[key] for one in lines] for key in lines[0]}, out / "causes-table.csv")
+    place = Place(args.out, args.figures or args.out, not args.no_pdf)
+    everything = {phi: cases_of(phi, args) for phi in WANTED}
+    rows = [one for phi, found in sorted(everything.items()) for one in rows_of(phi, found)]
+    table.show({key: np.array([one[key] for one in rows]) for key in rows[0]})
+    write(place, rows)
+    draw(place, everything)
 
 
 if __name__ == "__main__":

@@ -6,7 +6,9 @@ from dataclasses import dataclass
 from pathlib import Path
 import re
 
+from matplotlib import pyplot as plt
 import numpy as np
+from PIL import Image
 
 from lammps_foam.analysis import runs, table
 
@@ -29,10 +31,17 @@ class Place:
     def has(self, name: str) -> bool:
         return (self.run(name) / "complete").exists()
 
-    def save(self, fig, name: str, dpi: int = DPI) -> None:
-        for kind in ("png", "pdf") if self.pdf else ("png",):
-            fig.savefig(self.out / f"{name}.{kind}", dpi=dpi)
-        fig.clear()
+    def save(self, fig, name: str, dpi: int = DPI, colors: int = 0) -> None:
+        """PNG and PDF; with `colors` the PNG has so few, which makes pictures of many bubbles small."""
+        png = self.out / f"{name}.png"
+        fig.savefig(png, dpi=dpi)
+        if self.pdf:
+            fig.savefig(self.out / f"{name}.pdf", dpi=dpi)
+        plt.close(fig)
+        if colors:
+            with Image.open(png) as picture:
+                few = picture.convert("RGB").quantize(colors)
+            few.save(png, optimize=True)
 
     def write(self, rows: list[dict[str, object]], name: str) -> None:
         """A table of rows with the same keys. Text goes as it is, numbers with all digits."""

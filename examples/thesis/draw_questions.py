@@ -1,6 +1,8 @@
 """What the thesis leaves open: growth at other kappa, with other sizes, and with an imposed flow."""
 from __future__ import annotations
 
+import numpy as np
+
 from common import Place, Result, late, tables, with_error
 from lammps_foam.analysis import figure, growth
 
@@ -20,7 +22,7 @@ def draw(place: Place, names: list[str]) -> list[Result]:
         n = fit.origin[0]
         label = label_of(name)
         rows.append({"run": label, "tau_from": start, "tau_to": end, "beta": fit.beta, "beta_error": fit.beta_error,
-                     "1/n": 1 / n, "1/n_error": fit.origin_error[0] / n**2, "energy": series["energy"][-1]})
+                     "1/n": 1 / n, "1/n_error": fit.origin_error[0] / n**2})
         later, color = series["tau"] > 0.1, COLORS[number % len(COLORS)]
         left.plot(series["tau"][later], series["R"][later], color=color, label=label.replace("κ", r"$\kappa$"))
         windows = growth.windows_of([series], 0.5, max(start / 10, 0.1), end, False)
@@ -29,10 +31,17 @@ def draw(place: Place, names: list[str]) -> list[Result]:
     place.write(rows, "questions")
     place.write([{"run": row["run"], "range of :math:`\\tau`": f"{row['tau_from']:.0f} to {row['tau_to']:.0f}",
                   "slope": with_error(row["beta"], row["beta_error"]),
-                  "1/n": with_error(row["1/n"], row["1/n_error"])} for row in rows], "questions-table")
+                  "1/n": with_error(row["1/n"], row["1/n_error"]), "slope less the first": less(row, rows[0])}
+                 for row in rows], "questions-table")
     finish(place, fig, left, right)
     said = "; ".join(f"{row['run']}: {with_error(row['beta'], row['beta_error'])}" for row in rows)
     return [Result("open questions", "asked, not answered", f"slopes: {said}", names)]
+
+
+def less(row, first) -> str:
+    if row is first:
+        return ""
+    return with_error(row["beta"] - first["beta"], float(np.hypot(row["beta_error"], first["beta_error"])))
 
 
 def label_of(name: str) -> str:
