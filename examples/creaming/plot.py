@@ -159,7 +159,7 @@ def draw_state(frames: list[Frame], layer: list[Frame], s: dict[str, float], dir
     for ax, frame, title in zip(axes, shown, titles):
         circles = draw_cut(ax, frame, s["R"], colour)
         ax.set(title=title, xlabel="x / R", ylabel="height below the lid / R")
-    fig.colorbar(circles, ax=axes, label="radius / R", shrink=0.7)
+    fig.colorbar(circles, ax=axes, label="radius / R", shrink=0.7, extend="max")
     figure.save(fig, directory / "state")
 
 
