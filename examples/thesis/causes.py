@@ -35,7 +35,7 @@ CASES = {
 WANTED = {    # of which as many as there are seeds, or the first few
     0.85: {"as figure 4.1": 4},
     0.80: {"as figure 4.1": 4, "rkc 1e-4": 2},
-    1.00: {"as figure 4.1": 4, "kappa 0": 3, "rkc 1e-4": 3, "abm 1e-5": 2, "K 1e-4": 3},
+    1.00: {"as figure 4.1": 4, "kappa 0": 4, "rkc 1e-4": 3, "abm 1e-5": 2, "K 1e-4": 3},
 }
 
 
@@ -60,13 +60,25 @@ def row(phi, case, bubbles, series, first, limits):
     """Exponents of a case in a range of tau, and their change against the first case."""
     fit = growth.fit(series, *limits)
     n = fit.origin[0]
-    change = np.array([slope(one, limits) - slope(other, limits) for one, other in zip(series, first)])
     paired = bubbles == BUBBLES and series is not first
+    change, error = change_of(series, first, limits) if paired else (np.nan, np.nan)
     return {"phi": phi, "case": case, "bubbles": bubbles, "runs": len(series), "tau_from": limits[0],
             "tau_to": limits[1], "beta": fit.beta, "beta_error": fit.beta_error,
             "1/n": 1 / n, "1/n_error": fit.origin_error[0] / n**2,
-            "change": change.mean() if paired else np.nan,
-            "change_error": change.std(ddof=1) / np.sqrt(len(change)) if paired and len(change) > 1 else np.nan}
+            "change": change, "change_error": error}
+
+
+def change_of(series, first, limits):
+    """Mean difference of slopes from runs with the same start, and its error.
+
+    Runs with the same start part after a while. The scatter of few differences may be small by chance, so the error is
+    at least that of runs that have nothing in common, by the scatter of the first case.
+    """
+    alone = np.array([slope(other, limits) for other in first])
+    count = len(series)
+    changes = np.array([slope(one, limits) for one in series]) - alone[:count]
+    return changes.mean(), max(alone.std(ddof=1) * np.sqrt(2 / count),
+                               changes.std(ddof=1) / np.sqrt(count) if count > 1 else 0.0)
 
 
 def slope(one, limits):

@@ -9,15 +9,22 @@ from lammps_foam.analysis import figure
 from lammps_foam.analysis.avalanches import Found, analyse
 
 SHOWN = 0.35      # of ln(tau) at the end of the range: long enough for some events, short enough to see them
+THRESHOLD = 3.0   # usual deviations by which a drop stands out
+THRESHOLDS = (2.0, THRESHOLD, 4.0)
 LABELS = ("energy", r"$-\mathrm{d}\ln E/\mathrm{d}\ln\tau$", "variance of velocity")
 
 
 def draw(place: Place, names: list[str]) -> list[Result]:
-    found = [analyse(one, *late([one]), threshold=3.0, window=1.0) for one in tables(place, names)]
-    rows = [numbers(name, one) for name, one in zip(names, found)]
+    series = tables(place, names)
+    found = {threshold: [analyse(one, *late([one]), threshold=threshold, window=1.0) for one in series]
+             for threshold in THRESHOLDS}
+    every = {threshold: [numbers(name, one) for name, one in zip(names, ones)] for threshold, ones in found.items()}
+    rows = every[THRESHOLD]
     place.write(rows, "avalanches")
     place.write([shown(row) for row in rows], "avalanches-table")
-    picture(place, names, found)
+    place.write([of_threshold(threshold, row) for threshold, lines in every.items() for row in lines],
+                "avalanches-threshold-table")
+    picture(place, names, found[THRESHOLD])
     return [Result("4.2 to 4.5", "drops of the energy and spikes of the velocity variance coincide; towards φ = 0.87 "
                    "they get wider and rarer", said(rows), names)]
 
@@ -56,12 +63,20 @@ def shown(row) -> dict[str, str]:
             "correlation": f"{row['correlation']:.2f}"}
 
 
+def of_threshold(threshold: float, row) -> dict[str, str]:
+    return {"threshold": f"{threshold:g}", ":math:`\\varphi`": f"{row['phi']:.2f}", "drops": f"{row['drops']}",
+            "drops per :math:`\\tau`": with_error(row["per_tau"], row["per_tau_error"]),
+            "width in :math:`\\tau`": f"{row['width']:.2f}", "with a spike": f"{row['with_spike']:.2f}",
+            "by chance": f"{row['by_chance']:.2f}"}
+
+
 def said(rows) -> str:
-    return "; ".join(f"φ = {row['phi']:.2f}: share of drops with a spike "
-                     f"{with_error(row['with_spike'], row['with_spike_error'])} "
-                     f"(by chance {row['by_chance']:.2f}), "
-                     f"{with_error(row['per_tau'], row['per_tau_error'])} drops per τ, "
-                     f"width {with_error(row['width'], row['width_error'])}" for row in rows)
+    def each(key):
+        return ", ".join(with_error(row[key], row[f"{key}_error"]) for row in rows)
+    most = max(row["by_chance"] for row in rows)
+    return (f"φ = {', '.join(format(row['phi'], '.2f') for row in rows)}: share of drops with a spike "
+            f"{each('with_spike')} (by chance {most:.2f} at most); drops per τ {each('per_tau')}; "
+            f"width in τ {each('width')}")
 
 
 def picture(place: Place, names: list[str], found: list[Found]) -> None:

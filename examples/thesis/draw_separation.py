@@ -61,12 +61,14 @@ def frames_of(place: Place, name: str):
 
 
 def survey(place: Place, name: str) -> Survey:
-    kept, first, bubbles, next_rates = Survey(name), 0, None, np.inf
+    kept, first, bubbles, next_rates, start = Survey(name), 0, None, np.inf, None
     for tau, frame in frames_of(place, name):
         first = first or len(frame)
         left = first / len(frame)
         if len(frame) >= FEWEST:
-            kept.rows.append(grid(tau, frame))
+            row, local = grid(tau, frame)
+            start = local if start is None else start
+            kept.rows.append({**row, "like_start": float(np.corrcoef(start.ravel(), local.ravel())[0, 1])})
         if len(kept.states) < len(STATES) and left >= STATES[len(kept.states)]:
             kept.states.append((tau, frame, small_cells(frame)[0]))
         if FOLLOWED[0] <= left <= FOLLOWED[1]:
@@ -92,15 +94,16 @@ def small_cells(frame: Frame) -> tuple[np.ndarray, int]:
     return fraction.local_fraction(frame.positions, frame.radius, frame.box, (split * CELLS, split * CELLS)), split
 
 
-def grid(tau: float, frame: Frame) -> dict[str, float]:
-    """Spread over the cells of the grid, what it would be if small cells were dealt at random, and gaps."""
+def grid(tau: float, frame: Frame) -> tuple[dict[str, float], np.ndarray]:
+    """Spread over the cells of the grid, what it would be if small cells were dealt at random, gaps; and the cells."""
     fine, split = small_cells(frame)
-    spread, spread_error = fraction.spread(fraction.coarser(fine, split))
+    local = fraction.coarser(fine, split)
+    spread, spread_error = fraction.spread(local)
     clustering, clustering_error = fraction.clustering(fine, split)
     gap = fine < EMPTY
     return {"tau": tau, "N": len(frame), "spread": spread, "spread_error": spread_error,
             "dealt": spread / clustering, "clustering": clustering, "clustering_error": clustering_error,
-            "gaps": float(np.mean(gap)), "outside": float(np.mean(fine[~gap]))}
+            "gaps": float(np.mean(gap)), "outside": float(np.mean(fine[~gap]))}, local
 
 
 # ------------------------------------------------------------------ tables
@@ -113,8 +116,8 @@ def shown(one: Survey) -> list[dict[str, str]]:
              "spread": with_error(row["spread"], row["spread_error"]),
              "dealt at random": f"{row['dealt']:.4f}",
              "clustering": with_error(row["clustering"], row["clustering_error"]),
-             "gaps [% of the area]": f"{100 * row['gaps']:.2f}",
-             "gas fraction outside gaps": f"{row['outside']:.3f}"} for row in rows]
+             "gaps [%]": f"{100 * row['gaps']:.2f}",
+             "outside gaps": f"{row['outside']:.3f}", "like the start": f"{row['like_start']:.2f}"} for row in rows]
 
 
 def gas(name: str, tau: float, frame: Frame) -> list[dict[str, str]]:
@@ -156,7 +159,10 @@ def results(place: Place, names: list[str], surveys: list[Survey]) -> list[Resul
 
 
 def separated(one: Survey) -> str:
-    most = max((row for row in one.rows if row["tau"] > 0), key=lambda row: row["clustering"])
+    known = [row for row in one.rows if row["tau"] > 0 and np.isfinite(row["clustering"])]
+    if not known:
+        return "too few bubbles to tell"
+    most = max(known, key=lambda row: row["clustering"])
     gaps = max(one.rows, key=lambda row: row["gaps"])
     begun = next((row for row in one.rows if row["gaps"] > SEEN), None)
     text = (f"clustering up to {with_error(most['clustering'], most['clustering_error'])} at τ = {most['tau']:.0f}; ")
@@ -171,9 +177,9 @@ def paths_said(surveys: list[Survey]) -> str:
     for one in surveys:
         if len(one.tracks) > 1:
             length = np.linalg.norm(one.tracks[-1][2], axis=1) / one.start.radius.mean()
-            parts.append(f"{label_of(one.name)}: median displacement from τ = {one.tracks[0][0]:.0f} to "
-                         f"{one.tracks[-1][0]:.0f} {np.median(length):.1f}, largest {length.max():.0f} mean radii "
-                         "of the first state")
+            parts.append(f"{label_of(one.name)}: displacement {np.median(length):.1f} (median) and {length.max():.0f} "
+                         f"(largest) mean radii of the first state, from τ = {one.tracks[0][0]:.0f} to "
+                         f"{one.tracks[-1][0]:.0f}")
     return "; ".join(parts)
 
 
