@@ -119,11 +119,19 @@ def terminal_speed(R: Array, s: dict[str, float]) -> Array:
     return speed
 
 
-def swarm(frames: list[Frame], s: dict[str, float]) -> tuple[float, float]:
-    """Mean speed of bubbles in the lower half at 0.05 s, where nothing is in their way, and of each of them alone."""
+def swarm(frames: list[Frame], s: dict[str, float]) -> dict[str, float]:
+    """Speeds of bubbles in the lower half at 0.05 s, where no layer is in their way, beside those of each one alone."""
     frame = frame_at(frames, 0.05)
     half = frame["z"] < 0.5 * (frame.box.lo[2] + frame.box.hi[2])
-    return float(frame["vz"][half].mean()), float(terminal_speed(frame["radius"][half], s).mean())
+    R, speed = frame["radius"][half], frame["vz"][half]
+    alone = terminal_speed(R, s)
+    found = {"swarm_speed": float(speed.mean()), "speed_alone": float(alone.mean()),
+             "swarm_gas_speed": float(np.average(speed, weights=R**3)),
+             "gas_speed_alone": float(np.average(alone, weights=R**3))}
+    for name, some in (("small", R < 0.75 * s["R"]), ("large", R > 1.25 * s["R"])):
+        if some.any():
+            found[f"{name}_over_alone"] = float(np.mean(speed[some] / alone[some]))
+    return found
 
 
 # ---------------------------------------------------------------- figures
@@ -235,9 +243,8 @@ def profiles_of_rest(frame: Frame, state: Series | None, s: dict[str, float]) ->
 
 def numbers_of(directory: Path, frames: list[Frame], lines: dict[str, Array], s: dict[str, float]) -> dict[str, float]:
     series = read_table(directory / "rise.csv", ("time", "lid", "speed", "buoyancy", "budget"))
-    alone = swarm(frames, s)
     found = {"bubbles": float(len(frames[0])), "bond": (s["rho"] - s["gas"]) * s["g"] * s["R"]**2 / s["sigma"],
-             "swarm_speed": alone[0], "speed_alone": alone[1], "lid": series["lid"][-1],
+             **swarm(frames, s), "lid": series["lid"][-1],
              "lid_last": float(np.mean(series["lid"][-25:])), "budget": series["budget"][-1] / series["buoyancy"][-1],
              "half_time": float(np.interp(0.5, series["lid"], series["time"]))}
     for name in ("drag", "film", "lubrication", "elastic", "kinetic"):

@@ -36,7 +36,6 @@ TERMS: dict[str, dict[str, str]] = {     # what differs from the settings of in.
     "dt 1.5e-4": {"dt": "1.5e-4"},
     "tol 1e-3": {"tol": "1e-3"},
     "tol 1e-4": {"tol": "1e-4"},
-    "derived": {"viscous": "derived", "dt": "1e-5", "sample": "200", "report": "5000"},
 }
 
 
