@@ -119,7 +119,7 @@ def compare(place: Place, results: list[Result], command: str) -> None:
             rows = {row["figure"]: row for row in csv.DictReader(file)}
     for one in results:
         spent = shown_minutes([minutes(place.run(name)) for name in one.names])
-        rows[one.figure] = dict(zip(head, (one.figure, one.published, one.ours, command, spent)))
+        rows[one.figure] = dict(zip(head, (one.figure, one.published, one.ours, f":code:`{command}`", spent)))
     with path.open("w", newline="") as file:
         writer = csv.DictWriter(file, head, lineterminator="\n")
         writer.writeheader()

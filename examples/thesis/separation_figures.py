@@ -106,7 +106,7 @@ def draw_maps(place: Place, surveys) -> None:
             ax.set(title=rf"{label_of(one.name)}, $\tau$ = {tau:.0f}")
             whole_box(ax, frame)
     fig.colorbar(drawn, ax=axes, shrink=0.7, label="local gas fraction")
-    place.save(fig, "thesis-maps", dpi=100, colors=128)
+    place.save(fig, "thesis-maps", dpi=90, colors=48)
 
 
 def draw_energies(place: Place, one) -> None:
