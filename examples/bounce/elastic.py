@@ -31,7 +31,7 @@ HERE = Path(__file__).resolve().parent
 def lammps(lmp: list[str], directory: Path, R: float, sigma: float, elastic: str) -> tuple[list[float], list[float]]:
     """Overlaps over R, and forces in N."""
     words = ["-var", "R", str(R), "-var", "sigma", str(sigma), "-var", "elastic", elastic]
-    done = subprocess.run([*lmp, "-in", str(HERE / "in.press"), "-log", "none", *words], cwd=directory,
+    done = subprocess.run([*lmp, "-in", str(HERE / "press.lmp"), "-log", "none", *words], cwd=directory,
                           stdin=subprocess.DEVNULL, capture_output=True, text=True)
     if done.returncode:
         sys.exit(f"LAMMPS stopped with status {done.returncode}:\n{done.stdout[-1000:]}")
