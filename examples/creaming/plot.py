@@ -245,7 +245,8 @@ def numbers_of(directory: Path, frames: list[Frame], lines: dict[str, Array], s:
     series = read_table(directory / "rise.csv", ("time", "lid", "speed", "buoyancy", "budget"))
     found = {"bubbles": float(len(frames[0])), "bond": (s["rho"] - s["gas"]) * s["g"] * s["R"]**2 / s["sigma"],
              **swarm(frames, s), "lid": series["lid"][-1],
-             "lid_last": float(series["lid"][series["time"] > series["time"][-1] - 0.05].mean()), "budget": series["budget"][-1] / series["buoyancy"][-1],
+             "lid_last": float(series["lid"][series["time"] > series["time"][-1] - 0.05].mean()),
+             "budget": series["budget"][-1] / series["buoyancy"][-1],
              "half_time": float(np.interp(0.5, series["lid"], series["time"]))}
     for name in ("drag", "film", "lubrication", "elastic", "kinetic"):
         found[name] = series[name][-1] / series["buoyancy"][-1]
