@@ -63,7 +63,12 @@ struct Meeting {
   double h0 = 0.0, overlap = 0.0;
   double elastic = 0.0;
   double viscous = 0.0, lubrication = 0.0, sliding = 0.0;    // coefficients of speeds
+  double friction = 0.0;    // the largest coefficient within the next step
 };
+
+// Where steps are chosen, no gap closes by more than this part of itself in one
+
+constexpr double CLOSED_IN_A_STEP = 0.2;
 
 // Does the gap become a film, and how thick is that?  h_kept: h0 of this contact, if it has one.  No root is taken
 // where the gap is wide.
@@ -95,6 +100,15 @@ FOAM_FUNCTION void deform(const Collision &c, const Gap &gap, double overlap, Me
   }
 }
 
+FOAM_FUNCTION double film_coefficient(const Collision &c, const Gap &gap, double overlap,
+                                      double thickness)
+{
+  const double x = (gap.wall ? 1.0 : 0.5) * overlap / gap.mean;
+  const double h = thickness / gap.mean, a = film_radius(x);
+  return film_viscous(c.mu, film_growth(x), c.viscous == Viscous::DERIVED,
+                      c.integral.first ? c.integral(h, a) : film_fit(h, a), gap);
+}
+
 FOAM_FUNCTION Meeting meet(const Collision &c, const Gap &gap, double width, double u,
                            double h_kept)
 {
@@ -106,16 +120,17 @@ FOAM_FUNCTION Meeting meet(const Collision &c, const Gap &gap, double width, dou
       m.overlap = overlap;
       deform(c, gap, overlap, m);
     }
-    if (c.viscous != Viscous::NONE) {
-      const double x = (gap.wall ? 1.0 : 0.5) * m.overlap / gap.mean;
-      const double h = m.h0 / gap.mean, a = film_radius(x);
-      m.viscous = film_viscous(c.mu, film_growth(x), c.viscous == Viscous::DERIVED,
-                               c.integral.first ? c.integral(h, a) : film_fit(h, a), gap);
-    }
+    if (c.viscous != Viscous::NONE) m.viscous = film_coefficient(c, gap, m.overlap, m.h0);
   } else if (c.lubrication && width < c.reach * gap.mean) {
     m.lubrication = lubrication(c.mu, width, gap);
   }
   if (c.slides) m.sliding = sliding(c.mu, width > c.hmin ? width : c.hmin, gap.mean);
+  m.friction = m.viscous + m.lubrication + m.sliding;
+
+  // The next step may close the film, whose friction is up to 30 times that of the liquid before
+
+  if (!m.closed && c.viscous != Viscous::NONE && width * (1.0 - CLOSED_IN_A_STEP) < m.h0)
+    m.friction += film_coefficient(c, gap, 0.0, m.h0);
   return m;
 }
 
@@ -373,7 +388,7 @@ template <class B, class List, bool TALLY> struct Collide {
     const Meeting m = encounter(i, gap, width, unit, u, h_kept, force, mine);
     if (m.closed) films.keep(i, b.tag(j), m.h0);
     for (int k = 0; k < 3; k++) total[k] += force[k];
-    total[3] += m.viscous + m.lubrication + m.sliding;
+    total[3] += m.friction;
     if constexpr (TALLY) {
       mine.xx += 0.5 * r[0] * force[0];
       mine.yy += 0.5 * r[1] * force[1];
@@ -427,12 +442,22 @@ template <class B> struct MeetPlane {
     const Meeting m = encounter(i, gap, width, unit, u, films.of(i, id), force, all);
     if (m.closed && films.has_room(i))
       films.keep(i, id, m.h0);    // surfaces of a region: not so many
-    all.friction.raise((m.viscous + m.lubrication + m.sliding) / volume(gap.Ri));
+    all.friction.raise(m.friction / volume(gap.Ri));
     if (!moves) return;
     for (int k = 0; k < 3; k++) b.f(i, k) += force[k];
     all.fx += -force[0];
     all.fy += -force[1];
     all.fz += -force[2];
+    auto stress = [&](int k,
+                      int l) {    // r from the wall, as LAMMPS' walls have it; symmetric part
+      return 0.5 * distance * (unit[k] * force[l] + unit[l] * force[k]);
+    };
+    all.xx += stress(0, 0);
+    all.yy += stress(1, 1);
+    all.zz += stress(2, 2);
+    all.xy += stress(0, 1);
+    all.xz += stress(0, 2);
+    all.yz += stress(1, 2);
   }
 };
 

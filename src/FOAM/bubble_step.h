@@ -37,6 +37,15 @@ struct StepTotals {
   }
 };
 
+// how fast a bubble is, of the square of its speed, and how light
+
+FOAM_FUNCTION void limits(const Liquid &liquid, double mass, double R, double square,
+                          StepTotals &all)
+{
+  all.rate.raise(std::sqrt(square) / R);
+  all.lightness.raise(volume(R) / effective_mass(liquid, mass, R));
+}
+
 struct StepColumns {
   double *kick[3];         // (h/2) a
   double *predicted[3];    // v_pred, and
@@ -83,13 +92,12 @@ template <class B> struct Finish {
       speed += b.v(i, k) * b.v(i, k);
     }
     all.error.raise(h * std::sqrt(square) / R);
-    all.rate.raise(std::sqrt(speed) / R);
-    all.lightness.raise(volume(R) / m);
+    limits(liquid, b.mass(i), R, speed, all);
   }
 };
 
 // The set-up of a run: forces are those that the last step ended with, at v_pred, unless somebody has changed
-// velocities.  Then bubbles get their own back.
+// velocities.  Then bubbles get their own back; the first step is no longer than later ones may be.
 
 template <class B> struct TakePredicted {
   static constexpr const char *NAME = "bubble: take predicted velocities";
@@ -109,15 +117,19 @@ template <class B> struct TakePredicted {
 template <class B> struct GiveBack {
   static constexpr const char *NAME = "bubble: give velocities back";
   B b;
+  Liquid liquid;
   StepColumns s;
   const double *stiffness;    // of the drag, or none
-  FOAM_FUNCTION void operator()(int i) const
+  FOAM_FUNCTION void operator()(int i, StepTotals &all) const
   {
+    double speed = 0.0;
     for (int k = 0; k < 3; k++) {
       const double end = s.end[k][i];
       if (stiffness) b.f(i, k) -= stiffness[i] * (end - b.v(i, k));
       b.v(i, k) = end;
+      speed += end * end;
     }
+    limits(liquid, b.mass(i), b.radius(i), speed, all);
   }
 };
 

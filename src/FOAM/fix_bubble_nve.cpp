@@ -30,7 +30,7 @@ using namespace FixConst;
    fix ID group-ID bubble/nve keyword value ...
 ------------------------------------------------------------------------- */
 
-FixBubbleNVE::FixBubbleNVE(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg)
+FixBubbleNVE::FixBubbleNVE(LAMMPS *lmp, int narg, char **arg) : FixFoamTravelling(lmp, narg, arg)
 {
   using Value = FoamInput::Value;
   FoamInput input(error, "Fix bubble/nve", narg - 3, arg + 3);
@@ -48,22 +48,12 @@ FixBubbleNVE::FixBubbleNVE(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, a
   size_vector = 4;
   extvector = 0;
   global_freq = 1;
-  restart_global = restart_peratom = 1;
-  create_attribute = 1;
+  restart_global = 1;
   maxexchange = NCOLUMNS;
 
   columns.use(atom->nmax);
   for (int i = 0; i < atom->nlocal; i++) set_arrays(i);
-  atom->add_callback(Atom::GROW);
-  atom->add_callback(Atom::RESTART);
-  called_back = true;
-}
-
-FixBubbleNVE::~FixBubbleNVE()
-{
-  if (!called_back) return;
-  atom->delete_callback(id, Atom::GROW);
-  atom->delete_callback(id, Atom::RESTART);
+  add_callbacks();
 }
 
 int FixBubbleNVE::setmask()
@@ -171,7 +161,7 @@ void FixBubbleNVE::set_timestep(double step)
 
 double FixBubbleNVE::next_step()
 {
-  constexpr double SAFETY = 0.9, GROW = 1.3, SHRINK = 0.3, CLOSE = 0.2, FAR = 0.1, STABLE = 0.8;
+  constexpr double SAFETY = 0.9, GROW = 1.3, SHRINK = 0.3, FAR = 0.1, STABLE = 0.8;
   double friction = 0.0, closing = 0.0;
   auto meets = [&](const Bubble::CollisionTotals &its) {
     closing = std::max(closing, double(its.closing));
@@ -191,7 +181,7 @@ double FixBubbleNVE::next_step()
     if (rate > 0.0) step = std::min(step, part / rate);
   };
   limit(FAR, all[1]);
-  limit(CLOSE, all[3]);
+  limit(Bubble::CLOSED_IN_A_STEP, all[3]);
   limit(STABLE, all[2] * all[4]);
   if (longest > 0.0) step = std::min(step, longest);
   if (!std::isfinite(error_last) || !(update->atime + step > update->atime))
@@ -223,60 +213,12 @@ double FixBubbleNVE::compute_vector(int n)
   return shortest;
 }
 
-/* ----------------------------------------------------------------------
-   columns travel with the bubbles
-------------------------------------------------------------------------- */
-
-void FixBubbleNVE::grow_arrays(int nmax)
-{
-  columns.use(nmax);
-}
-
-void FixBubbleNVE::copy_arrays(int i, int j, int)
-{
-  columns.copy(i, j);
-}
-
 void FixBubbleNVE::set_arrays(int i)    // a new bubble
 {
   for (int k = 0; k < 3; k++) {
     columns[KICK + k][i] = 0.0;
     columns[PREDICTED + k][i] = columns[END + k][i] = atom->v[i][k];
   }
-}
-
-int FixBubbleNVE::pack_exchange(int i, double *buf)
-{
-  return columns.pack(i, buf);
-}
-
-int FixBubbleNVE::unpack_exchange(int i, double *buf)
-{
-  return columns.unpack(i, buf);
-}
-
-int FixBubbleNVE::pack_restart(int i, double *buf)
-{
-  buf[0] = size_restart(i);
-  columns.pack(i, buf + 1);
-  return 1 + NCOLUMNS;
-}
-
-void FixBubbleNVE::unpack_restart(int i, int nth)
-{
-  const double *extra = atom->extra[i];
-  for (int m = 0; m < nth; m++) extra += static_cast<int>(*extra);
-  columns.unpack(i, extra + 1);
-}
-
-int FixBubbleNVE::size_restart(int)
-{
-  return 1 + NCOLUMNS;
-}
-
-int FixBubbleNVE::maxsize_restart()
-{
-  return 1 + NCOLUMNS;
 }
 
 void FixBubbleNVE::write_restart(FILE *fp)
@@ -294,9 +236,4 @@ void FixBubbleNVE::restart(char *buf)
   h = values[0];
   error_worst = values[1];
   shortest = values[2];
-}
-
-double FixBubbleNVE::memory_usage()
-{
-  return bytes(all_columns);
 }

@@ -18,10 +18,9 @@ FixStyle(bubble/nve,FixBubbleNVE);
 
 #include "bubble_step.h"
 #include "fix_bubble_rise.h"
-#include "foam_columns.h"
+#include "fix_foam_travelling.h"
 
 #include "atom.h"
-#include "fix.h"
 #include "update.h"
 
 namespace LAMMPS_NS {
@@ -31,10 +30,9 @@ namespace LAMMPS_NS {
 // Forces are those of the predicted velocities.  So that a run goes on bit by bit where another has ended, the set-up
 // of a run finds bubbles with these velocities; at its end they have their own again.
 
-class FixBubbleNVE : public Fix {
+class FixBubbleNVE : public FixFoamTravelling {
  public:
   FixBubbleNVE(class LAMMPS *, int, char **);
-  ~FixBubbleNVE() override;
   int setmask() override;
   void init() override;
   void setup_pre_exchange() override;
@@ -46,18 +44,9 @@ class FixBubbleNVE : public Fix {
   void reset_dt() override {}
   double compute_vector(int) override;
 
-  void grow_arrays(int) override;
-  void copy_arrays(int, int, int) override;
   void set_arrays(int) override;
-  int pack_exchange(int, double *) override;
-  int unpack_exchange(int, double *) override;
-  int pack_restart(int, double *) override;
-  void unpack_restart(int, int) override;
-  int size_restart(int) override;
-  int maxsize_restart() override;
   void write_restart(FILE *) override;
   void restart(char *) override;
-  double memory_usage() override;
 
  protected:
   virtual void take_predicted();    // loops over bubbles
@@ -72,8 +61,11 @@ class FixBubbleNVE : public Fix {
   template <class Space> void give_back_in(Space &space)
   {
     using B = typename Space::Bubbles;
-    space.for_each(atom->nlocal,
-                   Bubble::GiveBack<B>{space.bubbles(), step_columns(space), stiffness(space)});
+    const Foam::FoamMax error = totals.error;    // of the last step
+    totals = space.template totals<Bubble::StepTotals>(
+        atom->nlocal,
+        Bubble::GiveBack<B>{space.bubbles(), liquid(), step_columns(space), stiffness(space)});
+    totals.error = error;
   }
   template <class Space> void advance_in(Space &space)
   {
@@ -89,10 +81,8 @@ class FixBubbleNVE : public Fix {
                                         stiffness(space), update->dt});
   }
 
-  FoamColumnList all_columns;
   enum { KICK, PREDICTED = 3, END = 6, NCOLUMNS = 9 };
-  FoamColumns columns{all_columns, "steps of bubbles", NCOLUMNS};
-  FoamColumnList travelling() { return all_columns; }
+  FoamColumns columns{all_columns, "steps of bubbles", NCOLUMNS, TRAVELS};
 
  private:
   class PairBubbleCollision *pair = nullptr;
@@ -103,7 +93,6 @@ class FixBubbleNVE : public Fix {
   double dt_given = 0.0;            // of the timestep command, put back after a run
   Bubble::StepTotals totals;        // of this rank
   double error_last = 0.0, error_worst = 0.0, shortest = 0.0;
-  bool called_back = false;
 
   Bubble::Liquid liquid() const;
   template <class Space> const double *stiffness(Space &space) const

@@ -14,6 +14,7 @@
 #include "fix_foam_coarsen.h"
 #include "foam_contact_drag.h"
 #include "fix_foam_flow.h"
+#include "fix_foam_travelling.h"
 #include "foam_driver.h"
 #include "foam_history.h"
 #include "foam_host.h"
@@ -47,10 +48,9 @@ namespace LAMMPS_NS {
 // template, named with _in, for the space in which this style runs.  A style for a device
 // overrides those and keeps the rest.
 
-class FixFoamIntegrate : public Fix {
+class FixFoamIntegrate : public FixFoamTravelling {
  public:
   FixFoamIntegrate(class LAMMPS *, int, char **);
-  ~FixFoamIntegrate() override;
 
   int setmask() override;
   void init() override;
@@ -68,17 +68,10 @@ class FixFoamIntegrate : public Fix {
   double compute_vector(int) override;
 
   void grow_arrays(int) override;
-  void copy_arrays(int, int, int) override;
   void set_arrays(int) override;
-  int pack_exchange(int, double *) override;
-  int unpack_exchange(int, double *) override;
   int pack_restart(int, double *) override;
-  void unpack_restart(int, int) override;
-  int size_restart(int) override;
-  int maxsize_restart() override;
   void write_restart(FILE *) override;
   void restart(char *) override;
-  double memory_usage() override;
 
  protected:
   PairFoam *pair = nullptr;
@@ -95,8 +88,6 @@ class FixFoamIntegrate : public Fix {
   // settings, from the command: keywords of all schemes, and own ones with what to do with a value
 
   void settings(int, char **, const FoamInput::Keywords &own);
-  void add_callbacks();
-  bool called_back = false;
 
   Foam::Variable variable = Foam::Variable::VOLUME;
   Foam::Norm norm = Foam::Norm::RMS;
@@ -115,9 +106,7 @@ class FixFoamIntegrate : public Fix {
 
   // per bubble; those that travel with it stand in restart files, too
 
-  FoamColumnList all_columns;
-  enum : unsigned { STAYS = 1, TRAVELS = 2 };
-  FoamColumnList travelling() const { return chosen(all_columns, TRAVELS); }
+  bool wanted(const FoamColumns &) const override;
 
   // those of the step before are for the scheme to use
 

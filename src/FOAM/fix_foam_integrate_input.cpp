@@ -28,7 +28,7 @@ using namespace FixConst;
 ------------------------------------------------------------------------- */
 
 FixFoamIntegrate::FixFoamIntegrate(LAMMPS *lmp, int narg, char **arg)
-    : Fix(lmp, narg, arg), reduce(world), list(lmp), out(lmp), dim(domain->dimension)
+    : FixFoamTravelling(lmp, narg, arg), reduce(world), list(lmp), out(lmp), dim(domain->dimension)
 {
   time_integrate = 1;
   force_reneighbor = 1;
@@ -41,9 +41,7 @@ FixFoamIntegrate::FixFoamIntegrate(LAMMPS *lmp, int narg, char **arg)
   extvector = 0;
 
   restart_global = 1;
-  restart_peratom = 1;
-  create_attribute = 1;
-  maxexchange = maxsize_restart() - 1;
+  maxexchange = capacity(travelling());
   columns.use(atom->nmax);
 }
 
@@ -96,23 +94,6 @@ void FixFoamIntegrate::settings(int narg, char **arg, const FoamInput::Keywords 
   size_peratom_cols = 0;
   peratom_freq = 1;
   path.use(atom->nmax);
-}
-
-// The last that a constructor does: a constructor that ends in an error has no callbacks to take back,
-// and LAMMPS, asked to, would end the program.
-
-void FixFoamIntegrate::add_callbacks()
-{
-  atom->add_callback(Atom::GROW);
-  atom->add_callback(Atom::RESTART);
-  called_back = true;
-}
-
-FixFoamIntegrate::~FixFoamIntegrate()
-{
-  if (!called_back) return;
-  atom->delete_callback(id, Atom::GROW);
-  atom->delete_callback(id, Atom::RESTART);
 }
 
 int FixFoamIntegrate::setmask()

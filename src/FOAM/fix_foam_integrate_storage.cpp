@@ -24,37 +24,18 @@ using namespace LAMMPS_NS;
 
 void FixFoamIntegrate::grow_arrays(int nmax)
 {
-  for (FoamColumns *all : travelling()) all->grow(nmax);
+  FixFoamTravelling::grow_arrays(nmax);
   show_path();    // elsewhere now
-}
-
-void FixFoamIntegrate::copy_arrays(int i, int j, int)
-{
-  for (FoamColumns *all : travelling()) all->copy(i, j);
 }
 
 // a new bubble, of the radius that it has so far: see check_bubbles()
 
 void FixFoamIntegrate::set_arrays(int i)
 {
-  for (FoamColumns *all : travelling()) all->clear(i);
+  FixFoamTravelling::set_arrays(i);
   if (!atom->radius_flag) return;
   const double R = atom->radius[i];
   columns[Q][i] = q_of(R);
-}
-
-int FixFoamIntegrate::pack_exchange(int i, double *buf)
-{
-  int m = 0;
-  for (FoamColumns *all : travelling()) m += all->pack(i, buf + m);
-  return m;
-}
-
-int FixFoamIntegrate::unpack_exchange(int i, double *buf)
-{
-  int m = 0;
-  for (FoamColumns *all : travelling()) m += all->unpack(i, buf + m);
-  return m;
 }
 
 int FixFoamIntegrate::pack_restart(int i, double *buf)
@@ -62,43 +43,14 @@ int FixFoamIntegrate::pack_restart(int i, double *buf)
   // in mid-run the last velocities are the present ones
 
   if (lag.columns.in_use() && update->whichflag == 1) lag.keep_last(i);
-  const FoamColumnList all = travelling();
-  unsigned in_use = 0;
-  for (size_t n = 0; n < all.size(); n++)
-    if (all[n]->in_use()) in_use |= 1u << n;
-  buf[0] = size_restart(i);
-  buf[1] = in_use;
-  return 2 + pack_exchange(i, buf + 2);
+  return FixFoamTravelling::pack_restart(i, buf);
 }
 
-// What was in use when the file was written may be so again; residuals only if LAMMPS keeps less here, too, and
-// paths only if they are asked for
+// residuals only if LAMMPS keeps less here, too, and paths only if they are asked for
 
-void FixFoamIntegrate::unpack_restart(int i, int nth)
+bool FixFoamIntegrate::wanted(const FoamColumns &its) const
 {
-  const double *extra = atom->extra[i];
-  for (int m = 0; m < nth; m++) extra += static_cast<int>(*extra);
-  const auto in_use = static_cast<unsigned>(extra[1]);
-  extra += 2;
-  const FoamColumnList all = travelling();
-  for (size_t n = 0; n < all.size(); n++) {
-    if (!(in_use & (1u << n))) continue;
-    if (all[n] != &residuals && (all[n] != &path || paths)) all[n]->use(atom->nmax);
-    all[n]->unpack(i, extra);
-    extra += all[n]->capacity();
-  }
-}
-
-int FixFoamIntegrate::size_restart(int)
-{
-  int n = 2;
-  for (const FoamColumns *all : travelling()) n += all->active();
-  return n;
-}
-
-int FixFoamIntegrate::maxsize_restart()
-{
-  return 2 + capacity(travelling());
+  return &its != &residuals && (&its != &path || paths);
 }
 
 std::vector<double *> FixFoamIntegrate::progress()
@@ -130,9 +82,4 @@ void FixFoamIntegrate::restart(char *buf)
   // a file that is written in a run has the step just taken for the timestep
 
   if (dt_given > 0.0 && update->dt == driver.h_last) set_timestep(dt_given);
-}
-
-double FixFoamIntegrate::memory_usage()
-{
-  return bytes(all_columns);
 }

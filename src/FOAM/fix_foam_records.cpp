@@ -16,11 +16,9 @@
 using namespace LAMMPS_NS;
 
 FixFoamRecords::FixFoamRecords(LAMMPS *lmp, int narg, char **arg, int values_of_a_contact)
-    : Fix(lmp, narg, arg), history(all_columns, values_of_a_contact)
+    : FixFoamTravelling(lmp, narg, arg), history(all_columns, values_of_a_contact)
 {
   size_peratom_cols = 0;
-  restart_peratom = 1;
-  create_attribute = 1;
   maxexchange = exchange_foreseen = history.most();
 }
 
@@ -28,17 +26,12 @@ void FixFoamRecords::keep_records()
 {
   grow_arrays(atom->nmax);
   for (int i = 0; i < atom->nlocal; i++) set_arrays(i);
-  atom->add_callback(Atom::GROW);
-  atom->add_callback(Atom::RESTART);
-  called_back = true;
+  add_callbacks();
 }
 
 FixFoamRecords::~FixFoamRecords()
 {
   memory->destroy(array_atom);
-  if (!called_back) return;
-  atom->delete_callback(id, Atom::GROW);
-  atom->delete_callback(id, Atom::RESTART);
 }
 
 void FixFoamRecords::make_room(int most)
@@ -113,9 +106,7 @@ int FixFoamRecords::pack_restart(int i, double *buf)
 
 void FixFoamRecords::unpack_restart(int i, int nth)
 {
-  const double *extra = atom->extra[i];
-  for (int m = 0; m < nth; m++) extra += static_cast<int>(*extra);
-  history.unpack(i, extra + 1);
+  history.unpack(i, of_restart(atom, i, nth));
   maxexchange = history.most();
   look_at(i);
 }
@@ -132,5 +123,6 @@ int FixFoamRecords::maxsize_restart()
 
 double FixFoamRecords::memory_usage()
 {
-  return bytes(all_columns) + sizeof(double) * double(atom->nmax) * size_peratom_cols;
+  return FixFoamTravelling::memory_usage() +
+         sizeof(double) * double(atom->nmax) * size_peratom_cols;
 }

@@ -10,7 +10,7 @@
 #ifndef LMP_FIX_FOAM_RECORDS_H
 #define LMP_FIX_FOAM_RECORDS_H
 
-#include "fix.h"
+#include "fix_foam_travelling.h"
 #include "foam_history.h"
 
 namespace LAMMPS_NS {
@@ -18,7 +18,7 @@ namespace LAMMPS_NS {
 // A fix that keeps records of contacts (FoamHistory): they travel with the bubbles and stand in restart files.  What is
 // in them, and when they change, is the matter of the style.
 
-class FixFoamRecords : public Fix {
+class FixFoamRecords : public FixFoamTravelling {
  public:
   FixFoamRecords(class LAMMPS *, int, char **, int values_of_a_contact);
   ~FixFoamRecords() override;
@@ -38,9 +38,7 @@ class FixFoamRecords : public Fix {
   double memory_usage() override;
 
  protected:
-  FoamColumnList all_columns;
   FoamHistory history;
-  FoamColumnList travelling() const { return chosen(all_columns, FoamHistory::TRAVELS); }
 
   void keep_records();                // at the end of the constructor: size_peratom_cols is known
   void make_room(int most);           // in the records of a bubble
@@ -48,7 +46,6 @@ class FixFoamRecords : public Fix {
 
  private:
   int exchange_foreseen = 0;
-  bool called_back = false;    // see FixFoamIntegrate
 };
 
 }    // namespace LAMMPS_NS

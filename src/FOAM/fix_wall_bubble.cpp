@@ -56,7 +56,7 @@ FixWallBubble::FixWallBubble(LAMMPS *lmp, int narg, char **arg)
   size_vector = ENERGY;
   extscalar = extvector = 1;
   global_freq = 1;
-  energy_global_flag = 1;
+  energy_global_flag = virial_global_flag = 1;
   restart_global = 1;
   keep_records();
 }
@@ -104,18 +104,26 @@ void FixWallBubble::init()
 
 // before setup() of any fix: fix bubble/nve gives bubbles back their velocities there
 
-void FixWallBubble::setup_pre_reverse(int, int)
+void FixWallBubble::setup_pre_reverse(int, int vflag)
 {
-  push();
-  reduced = false;
+  act(vflag);
   losses.begin(totals);
 }
 
-void FixWallBubble::post_force(int)
+void FixWallBubble::post_force(int vflag)
 {
+  act(vflag);
+  losses.step(totals, update->dt);
+}
+
+void FixWallBubble::act(int vflag)
+{
+  v_init(vflag);
   push();
   reduced = false;
-  losses.step(totals, update->dt);
+  if (!vflag_global) return;
+  const double sums[6] = {totals.xx, totals.yy, totals.zz, totals.xy, totals.xz, totals.yz};
+  for (int k = 0; k < 6; k++) virial[k] += sums[k];
 }
 
 /* ----------------------------------------------------------------------

@@ -68,6 +68,7 @@ class FixWallBubble : public FixBubbleFilms {
   bool reduced = false;
 
   void take_model();
+  void act(int vflag);
   template <class Space> Bubble::MeetPlane<typename Space::Bubbles> plane(Space &space)
   {
     return {space.bubbles(),

@@ -88,7 +88,7 @@ class FoamFollower {
 
 class FoamHistory {
  public:
-  enum : unsigned { STAYS = 1, TRAVELS = 2 };
+  enum : unsigned { STAYS = 1, TRAVELS = 2 };    // as in FixFoamTravelling
   using Records = Foam::ContactRecords;
 
   FoamHistory(FoamColumnList &all, int values_of_a_contact)

@@ -194,6 +194,27 @@ def test_pair(lmp, gap, ratio, squared):
         assert term(frame, "delta") == pytest.approx(np.array(Deltas), rel=1e-8)
 
 
+def test_stress_of_walls(lmp):
+    """Two plates that squeeze a bubble: sum of r f is force times distance of the plates, and shear stress where it
+    slides along one of them; off unless asked for."""
+    half, speed = R6 - 30 * UM, 0.01
+    walls = [f"plane 0 0 {-half} 0 0 1", f"plane 0 0 {half} 0 0 -1 tangential no"]
+    volume = np.prod([hi - lo for lo, hi in BOX])
+    stress = "compute v all pressure NULL virial\nthermo_style custom step c_v[*] f_w[*] f_x[*]\n" + PRECISE
+    asked = "fix_modify w virial yes\nfix_modify x virial yes\n"
+
+    def run(more):
+        return lmp(text(wall=walls, run=f"{stress}{more}run 0"), data([0, 0, 0], R6, [[speed, 0, 0]])).thermo[0]
+
+    its = run(asked)
+    v = {k: its[f"c_v[{k}]"][0] * volume for k in range(1, 7)}
+    assert its["f_x[3]"][0] > 0
+    assert v[3] == pytest.approx(2 * half * its["f_x[3]"][0], rel=1e-12, abs=0)
+    assert v[5] == pytest.approx(0.5 * half * -its["f_w[1]"][0], rel=1e-12, abs=0)    # symmetric part of r_z f_x
+    assert v[5] < 0 and v[1] == v[2] == v[4] == v[6] == 0.0
+    assert all(run("")[f"c_v[{k}]"][0] == 0.0 for k in range(1, 7))
+
+
 # ---- regions, ranges ----------------------------------------------------------------------------
 
 def test_region(lmp):
