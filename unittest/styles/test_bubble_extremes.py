@@ -11,7 +11,7 @@ import os
 import numpy as np
 import pytest
 
-from test_bubble import G, MM, MU, R6, RHO, SIGMA, UM, data, elastic, term, text, wrong
+from test_bubble import G, MM, MU, R6, RHO, SIGMA, UM, data, elastic, term, text
 from test_bubble_motion import MODELS, SOFT, STILL, buoyancy
 
 FULL = os.environ.get("FOAM_EXTREMES") == "full"
