@@ -22,6 +22,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <vector>
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
@@ -162,16 +164,19 @@ void FixBubbleNVE::set_timestep(double step)
 double FixBubbleNVE::next_step()
 {
   constexpr double SAFETY = 0.9, GROW = 1.3, SHRINK = 0.3, FAR = 0.1, STABLE = 0.8;
-  double friction = 0.0, closing = 0.0;
+  double closing = 0.0;
+  std::vector<double> mine{totals.error, totals.rate, totals.lightness, 0.0};
   auto meets = [&](const Bubble::CollisionTotals &its) {
     closing = std::max(closing, double(its.closing));
-    friction += its.friction;
+    mine.push_back(its.friction);    // all ranks' largest of each, then their sum
   };
   if (pair) meets(pair->of_this_rank());
   for (auto &fix : modify->get_fix_list())
     if (auto *wall = dynamic_cast<FixWallBubble *>(fix)) meets(wall->of_this_rank());
-  double mine[] = {totals.error, totals.rate, totals.lightness, closing, friction}, all[5];
-  MPI_Allreduce(mine, all, 5, MPI_DOUBLE, MPI_MAX, world);
+  mine[3] = closing;
+  std::vector<double> all(mine.size());
+  MPI_Allreduce(mine.data(), all.data(), static_cast<int>(mine.size()), MPI_DOUBLE, MPI_MAX, world);
+  const double friction = std::accumulate(all.begin() + 4, all.end(), 0.0);
 
   error_last = all[0];
   error_worst = std::max(error_worst, error_last);
@@ -182,7 +187,7 @@ double FixBubbleNVE::next_step()
   };
   limit(FAR, all[1]);
   limit(Bubble::CLOSED_IN_A_STEP, all[3]);
-  limit(STABLE, all[2] * all[4]);
+  limit(STABLE, all[2] * friction);
   if (longest > 0.0) step = std::min(step, longest);
   if (!std::isfinite(error_last) || !(update->atime + step > update->atime))
     error->all(FLERR,
