@@ -440,18 +440,19 @@ template <class B> struct MeetPlane {
     if (!(width < encounter.model.range(gap))) return;
     double force[3];
     const Meeting m = encounter(i, gap, width, unit, u, films.of(i, id), force, all);
-    if (m.closed && films.has_room(i))
-      films.keep(i, id, m.h0);    // surfaces of a region: not so many
+    if (m.closed && films.has_room(i)) films.keep(i, id, m.h0);    // regions may have more surfaces
     all.friction.raise(m.friction / volume(gap.Ri));
     if (!moves) return;
     for (int k = 0; k < 3; k++) b.f(i, k) += force[k];
     all.fx += -force[0];
     all.fy += -force[1];
     all.fz += -force[2];
-    auto stress = [&](int k,
-                      int l) {    // r from the wall, as LAMMPS' walls have it; symmetric part
+    auto stress = [&](int k, int l) {
       return 0.5 * distance * (unit[k] * force[l] + unit[l] * force[k]);
     };
+
+    // the symmetric part of r f; r from the wall, as LAMMPS' walls have it
+
     all.xx += stress(0, 0);
     all.yy += stress(1, 1);
     all.zz += stress(2, 2);

@@ -19,9 +19,6 @@
 #include "modify.h"
 #include "update.h"
 
-#include <algorithm>
-#include <cmath>
-
 using namespace LAMMPS_NS;
 using namespace FixConst;
 
@@ -89,9 +86,8 @@ void FixBubbleRise::init()
   int others = 0;
   for (auto &fix : modify->get_fix_list()) others += dynamic_cast<FixBubbleRise *>(fix) ? 1 : 0;
   if (others > 1) error->all(FLERR, "Fix bubble/rise: there can be one liquid, not {}", others);
-  for (int k = 0; k < 3; k++) {
-    if (!flow[k].empty()) check_atom_variable(lmp, "bubble/rise", flow[k]);
-  }
+  for (const std::string &name : flow)
+    if (!name.empty()) check_atom_variable(lmp, "bubble/rise", name);
 }
 
 void FixBubbleRise::check_place(const char *style, int its_kokkosable, int its_space) const
