@@ -10,7 +10,7 @@ import shutil
 
 import pytest
 
-from ways import (FULL_BUILD, KEPT, KOKKOS_STYLES, LAMMPS_BUILD, LAMMPS_SRC, OUR_KOKKOS, PROJECT,
+from ways import (ALSO_KOKKOS, FULL_BUILD, KEPT, KOKKOS_STYLES, LAMMPS_BUILD, LAMMPS_SRC, OUR_KOKKOS, PROJECT,
                   UNOPTIMIZED, check_style_headers, check_styles, cmake, compile_files, configure, lammps_tree)
 
 COMPILER = LAMMPS_SRC.parent / "lib" / "kokkos" / "bin" / "nvcc_wrapper"
@@ -24,21 +24,22 @@ def configured(name, *options):
     # another LAMMPS, another directory
     where = KEPT / f"{LAMMPS_BUILD.parent.name}-{name}"
     tree, build = where / "lammps", where / "build"
-    for installed in (tree / "src").rglob("*foam*"):    # our files of old
-        if not any(PROJECT.glob(f"src/*/{installed.name}")):
-            installed.unlink()
+    for family in "*foam*", "*bubble*":    # our files of old
+        for installed in (tree / "src").rglob(family):
+            if not any(PROJECT.glob(f"src/*/{installed.name}")):
+                installed.unlink()
     lammps_tree(tree, "FOAM", "KOKKOS_FOAM")
     configure(tree / "cmake", build, *FLAGS, "-DCMAKE_CXX_STANDARD=20", "-DBUILD_SHARED_LIBS=on",
               "-DBUILD_MPI=on", "-DBUILD_OMP=on", "-DBUILD_TOOLS=off", "-DFFT=KISS", "-DPKG_KOKKOS=on",
               "-DPKG_PLUGIN=on", "-DKokkos_ENABLE_SERIAL=on", "-DKokkos_ENABLE_OPENMP=on", *options)
     check_style_headers(build)
-    check_style_headers(build, suffix="_kokkos")
+    check_style_headers(build, ALSO_KOKKOS, "_kokkos")
     return tree, build
 
 
 def compile_ours(tree, build):
     compile_files(build, [tree / "src" / "KOKKOS" / f"{name}.cpp" for name in OUR_KOKKOS])
-    assert {f"{name}.cpp.o" for name in OUR_KOKKOS} <= {p.name for p in build.rglob("*foam*.o")}
+    assert {f"{name}.cpp.o" for name in OUR_KOKKOS} <= {p.name for p in build.rglob("*_kokkos.cpp.o")}
 
 
 @pytest.mark.parametrize("precision", ["mixed", "single"])

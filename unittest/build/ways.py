@@ -15,14 +15,16 @@ KEPT = Path(os.environ["FOAM_BINARY_DIR"]) / "unittest" / "build"
 FULL_BUILD = os.environ.get("FOAM_TEST_FULL_BUILD")
 UNOPTIMIZED = ["-DCMAKE_CXX_FLAGS_RELEASE=-O0 -DNDEBUG"]    # a third of the time, with nvcc too
 
-STYLES = {
-    "pair": ["durian/foam"],
-    "fix": ["foam/coarsen", "foam/abm", "foam/rkc", "foam/contacts", "foam/wall", "foam/flow"],
+ALSO_KOKKOS = {
+    "pair": ["durian/foam", "bubble/collision"],
+    "fix": ["foam/coarsen", "foam/abm", "foam/rkc", "foam/contacts", "foam/wall", "foam/flow",
+            "bubble/rise", "bubble/nve", "bubble/films", "wall/bubble"],
     "compute": ["foam/bubble"],
 }
+STYLES = {**ALSO_KOKKOS, "compute": ["foam/bubble", "bubble/collision"]}
 KOKKOS_STYLES = {kind: [f"{name}/{suffix}" for name in names
                         for suffix in ("kk", "kk/device", "kk/host")]
-                 for kind, names in STYLES.items()}
+                 for kind, names in ALSO_KOKKOS.items()}
 OURS = sorted(path.stem for path in (PROJECT / "src" / "FOAM").glob("*.cpp")
               if path.stem != "foamplugin")
 OUR_KOKKOS = sorted(path.stem for path in (PROJECT / "src" / "KOKKOS_FOAM").glob("*.cpp"))
