@@ -1,148 +1,231 @@
 #!/usr/bin/env python3
-"""Scaling states of foams against their liquid fraction, from what run.py wrote.
+"""Tables and figures of foams against their liquid fraction, of the runs of run.py that are complete.
 
-    python3 plot.py DIR          writes microgravity.csv, microgravity.png, sizes.png in DIR
+    python3 plot.py DIR                                  into DIR
+    python3 plot.py DIR --full --no-pdf --out FOLDER     tables list all runs of run.py --full
 
-The scaling state is what is left after three quarters of the bubbles are gone. Exponents are slopes d ln <R> / d ln tau
-over that range, and slopes 1/n of R^n = k (tau - tau0), which do not depend on the origin of time; errors are those of
-lammps_foam.analysis.growth: block bootstrap of one run, or the scatter of seeds. Contacts and rattlers are counted in
-all snapshots of that range; rattlers have fewer than four contacts, taken out one after the other. Bubbles that stick
-(law sticky A) rest at a distance of R_i + R_j: contacts are those up to 1 + A times that. z_wide counts so in all
-series, with A = 0.05: that alone can be compared between laws.
+microgravity.csv has all numbers. states.py says how they are measured, crossover.py how crossovers are read off,
+tables.py makes the tables of the manual. What is not run yet is said to be so.
 """
+from __future__ import annotations
+
 import argparse
-from collections import defaultdict
 from pathlib import Path
-import re
 import sys
 
 import numpy as np
 
-from lammps_foam.analysis import contacts, figure, growth, runs, sizes, table
-from lammps_foam.analysis.read import Unusable, read_frames
+import tables
+from lammps_foam.analysis import figure, sizes
+from lammps_foam.analysis.pairs import into_brick
+from lammps_foam.analysis.read import Frame, Unusable, read_frames
+from lammps_foam.analysis import contacts
+from run import FRACTIONS, SERIES
+from states import EDGES, LATE, Foam, attraction, foams_in
 
-from run import SERIES
-
-NAME = re.compile(r"(?P<series>.+)-(?P<fraction>\d\.\d\d)-(?P<seed>\d+)$")
-WIDE = 1.05     # reach of contacts that is the same for all laws
-LATE = 4.0      # the scaling state begins when so many times fewer bubbles are left
-
-
-def found(directory):
-    """{series: {liquid fraction: [directories of seeds]}} of complete runs."""
-    all_runs = defaultdict(lambda: defaultdict(list))
-    for done in sorted(directory.glob("*/complete")):
-        match = NAME.match(done.parent.name)
-        if match:
-            all_runs[match["series"]][float(match["fraction"])].append(done.parent)
-    return all_runs
+DPI = 200
+PANELS = (("1/n", "growth exponent 1/n"), ("rattlers", "share of rattlers"),
+          ("z_wide", r"neighbors at $r < 1.05\,(R_i+R_j)$"), ("through_films", "share of gas through films"),
+          ("width", r"width of sizes, sd / $\langle R\rangle$"), ("below_0.5", r"share of bubbles below $0.5\,\langle R\rangle$"))
+MARKS = "os^Dv<>p"
+SHOWN = (0.20, 0.30, 0.36, 0.45)      # liquid fractions of size distributions and slices
+UNCERTAIN = 0.15                      # exponents with a larger error are not drawn
 
 
-def reach_of(series):
-    """Up to which share of R_i + R_j bubbles are in contact."""
-    law = SERIES[series][0].split()
-    return 1.0 + float(law[1]) if law[0] == "sticky" else 1.0
+def draw(directory: Path, out: Path | None = None, full: bool = False, pdf: bool = True) -> None:
+    out = out or directory
+    out.mkdir(parents=True, exist_ok=True)
+    foams = foams_in(directory)
+    fractions = sorted({fraction for _, fraction in foams} | (set(FRACTIONS) if full else set()))
+    write_tables(foams, fractions, full, out)
+    if not foams:
+        print(f"{directory} has no complete run of run.py: tables alone")
+        return
+    draw_against_fraction(foams, tables.ADHESION, out / "microgravity-adhesion", pdf)
+    draw_against_fraction(foams, tables.EXCHANGE, out / "microgravity-exchange", pdf)
+    draw_sizes(foams, out / "microgravity-sizes", pdf)
+    draw_approach(foams, out / "microgravity-approach", pdf)
+    draw_slices(foams, directory, out / "microgravity-slices", pdf)
 
 
-def scaling_state(paths, reach):
-    """A row of numbers of one series and liquid fraction, and the radii over their mean of each run."""
-    series = runs.read_runs(paths, ["R", "N"])
-    start = max(runs.tau_of_N(one, one["N"][0] / LATE) for one in series)
-    end = min(float(one["tau"][-1]) for one in series)
-    fit = growth.fit(series, start, end)
-    row = {"runs": len(paths), "tau_from": start, "tau_to": end, "beta": fit.beta, "beta_error": fit.beta_error,
-           "1/n": 1 / fit.origin[0], "1/n_error": fit.origin_error[0] / fit.origin[0]**2}
-    means, radii = contacts.Means(), []
-    for path, one in zip(paths, series):
-        for frame in read_frames(path / "left.lammpstrj"):
-            if len(frame) > one["N"][0] / LATE * 1.001:
-                continue
-            x, R = frame.positions, frame.radius
-            found_here = contacts.contacts_of(x, R, frame.box, reach=reach)
-            loose = ~found_here.backbone
-            ones = np.ones(len(R))
-            wide = contacts.contacts_of(x, R, frame.box, reach=WIDE)
-            means.add(frame, np.column_stack([found_here.number, wide.number, loose, R**3 * loose]).astype(float),
-                      np.column_stack([ones, ones, ones, R**3]))
-            radii.append((R / R.mean(), loose))
-    value, error = means.values()
-    for name, v, e in zip(("z", "z_wide", "rattlers", "rattlers_gas"), value, error):
-        row[name], row[f"{name}_error"] = float(v), float(e)
-    x = np.concatenate([r for r, _ in radii])
-    row["polydispersity"] = float(np.cbrt(np.mean(x**3))**2 / np.mean(x**2) - 1)
-    row["width"] = float(x.std())
-    last = [{name: column[one["tau"] >= start].mean() for name, column in one.items()} for one in series]
-    row["through_films"] = float(np.mean([one["vfilm"] / (one["vfilm"] + one["vliquid"]) for one in last]))
-    return row, radii
+def write_tables(foams: tables.Foams, fractions: list[float], full: bool, out: Path) -> None:
+    fractions = fractions or FRACTIONS
+    for name, what in (("1/n", "exponents"), ("beta", "slopes"), ("1/n_R32", "exponents-sauter"), ("z_wide", "contacts"),
+                       ("rattlers", "rattlers"), ("through_films", "films")):
+        tables.write(tables.matrix(foams, tables.ADHESION, fractions, name), out / f"{what}-adhesion.csv")
+        tables.write(tables.matrix(foams, tables.EXCHANGE, fractions, name), out / f"{what}-exchange.csv")
+    for series in ("spring", "sticky0.05"):
+        tables.write(tables.size_table(foams, series, fractions), out / f"sizes-{series}.csv")
+    tables.write(tables.crossovers(foams, list(SERIES)), out / "crossovers.csv")
+    tables.write(tables.shifts(foams), out / "shifts.csv")
+    tables.write(tables.checks(foams), out / "checks.csv")
+    tables.write(tables.summary(foams), out / "summary.csv")
+    (out / "findings.txt").write_text(tables.findings(foams))
+    wanted = [(series, fraction) for series in SERIES for fraction in FRACTIONS] if full else []
+    tables.write(tables.run_table(foams, wanted) or [{"series": tables.MISSING}], out / "runs.csv")
+    numbers = [{"series": foam.series, "liquid_fraction": foam.fraction, **foam.row} for foam in foams.values()]
+    tables.write(numbers or [{"series": tables.MISSING}], out / "microgravity.csv")
 
 
-def draw(directory):
-    all_runs = found(directory)
-    if not all_runs:
-        raise Unusable(f"{directory} has no complete run of run.py")
-    rows, radii = [], {}
-    for series, by_fraction in all_runs.items():
-        for fraction, paths in sorted(by_fraction.items()):
-            row, found_radii = scaling_state(paths, reach_of(series))
-            rows.append({"series": series, "liquid_fraction": fraction, **row})
-            radii[series, fraction] = found_radii
-    columns = {name: np.array([row[name] for row in rows]) for name in rows[0]}
-    table.show(columns, most=100)
-    table.write(columns, directory / "microgravity.csv")
-    draw_states(columns, directory / "microgravity")
-    draw_sizes(radii, directory / "sizes")
+def save(fig, base: Path, pdf: bool) -> None:
+    if pdf:
+        figure.save(fig, base)
+        return
+    fig.savefig(base.with_suffix(".png"), dpi=DPI)
+    figure.plt.close(fig)
 
 
-def draw_states(columns, base):
-    fig, axes = figure.panels(2, 2, height=2.3)
-    panels = (("1/n", "growth exponent 1/n"),
-              ("z_wide", r"neighbours at $r < 1.05\,(R_i+R_j)$"),
-              ("rattlers", "share of rattlers"),
-              ("width", r"width of sizes, sd / $\langle R\rangle$"))
-    uncertain = columns["1/n_error"] > 0.2    # the range was too short to tell n and tau0 apart
-    columns = {**columns, "1/n": np.where(uncertain, np.nan, columns["1/n"])}
-    for number, name in enumerate(dict.fromkeys(columns["series"])):
-        mine = columns["series"] == name
-        x = columns["liquid_fraction"][mine]
-        for ax, (what, _) in zip(axes, panels):
-            error = columns.get(f"{what}_error")
-            ax.errorbar(x, columns[what][mine], None if error is None else error[mine], lw=0.8, label=name,
-                        fmt="os^Dv<>p"[number % 8] + "-", color=f"C{number % 7}", mfc="w" if number % 2 else None)
-    for ax, (_, label) in zip(axes, panels):
+# ------------------------------------------------------------------ against the liquid fraction
+
+def draw_against_fraction(foams: tables.Foams, series: list[str], base: Path, pdf: bool) -> None:
+    fig, axes = figure.panels(2, 3, width=2.6, height=2.3)
+    for number, name in enumerate(series):
+        for ax, (what, _) in zip(axes, PANELS):
+            x, y, error = tables.column(foams, name, what)
+            good = error < UNCERTAIN if what == "1/n" else np.ones(len(x), dtype=bool)
+            ax.errorbar(x[good], y[good], error[good], lw=0.8, label=name, fmt=MARKS[number] + "-", color=f"C{number}",
+                        mfc="w" if number % 2 else None)
+    for ax, (_, label) in zip(axes, PANELS):
         ax.set(xlabel="liquid fraction", ylabel=label)
     for value in (1 / 3, 1 / 2):
-        axes[0].axhline(value, color="0.8", lw=0.8, zorder=0)
-    axes[1].legend()
-    figure.save(fig, base)
+        axes[0].axhline(value, color="0.7", lw=0.8, zorder=0)
+    for theory, style in (("lsw", "--"), ("lemlich", ":")):
+        width = sizes.theory_moments(theory, 3)[0]
+        axes[4].axhline(width, color="0.5", ls=style, lw=0.8, zorder=0)
+        axes[4].annotate(theory.upper() if theory == "lsw" else "Lemlich", (0.02, width), fontsize=6, va="bottom",
+                         xycoords=("axes fraction", "data"))
+    axes[3].legend()
+    save(fig, base, pdf)
 
 
-def draw_sizes(radii, base):
-    """Densities of R / <R>, of all bubbles and of rattlers, at three liquid fractions of the first series."""
-    series = next(iter(radii))[0]
-    fractions = [fraction for name, fraction in radii if name == series]
-    shown = sorted({fractions[0], fractions[len(fractions) // 2], fractions[-1]})
-    edges = np.linspace(0, 3, 31)
-    x = np.linspace(0, 2.5, 400)
-    fig, axes = figure.panels(1, len(shown), width=2.4, height=2.3)
-    for ax, fraction in zip(axes, shown):
-        states = radii[series, fraction]
-        everyone = np.concatenate([r for r, _ in states])
-        loose = np.concatenate([r[mask] for r, mask in states])
-        ax.stairs(sizes.histogram(everyone, edges), edges, color="C0", label="all")
-        ax.stairs(np.histogram(loose, edges)[0] / (len(everyone) * np.diff(edges)), edges, color="C1", fill=True,
-                  alpha=0.4, label="rattlers")
-        for theory, style in (("lsw", "k--"), ("lemlich", "k:")):
-            ax.plot(x, sizes.density_over_mean(theory, x, 3), style, lw=0.9, label=theory)
-        ax.set(title=f"{series}, liquid fraction {fraction:.2f}", xlabel=r"$R / \langle R\rangle$", xlim=(0, 2.6))
-    axes[0].set(ylabel="density")
+# ------------------------------------------------------------------ sizes
+
+def nearest(foams: tables.Foams, series: str, scaling: bool = True) -> list[Foam]:
+    """The foams of a series at the liquid fractions SHOWN, or those next to them."""
+    there = [foam for (name, _), foam in foams.items() if name == series and (foam.scales or not scaling)]
+    if not there:
+        return []
+    chosen = [min(there, key=lambda foam: abs(foam.fraction - fraction)) for fraction in SHOWN]
+    return list({foam.fraction: foam for foam in chosen}.values())
+
+
+def draw_sizes(foams: tables.Foams, base: Path, pdf: bool) -> None:
+    """Densities of R / <R> in the late states; filled: rattlers."""
+    rows = [found for found in (nearest(foams, series) for series in ("spring", "sticky0.05")) if found]
+    if not rows:
+        return
+    columns = max(map(len, rows))
+    fig, axes = figure.panels(len(rows), columns, width=1.95, height=2.0, sharex=True)
+    x, middle = np.linspace(0, 2.5, 400), (EDGES[1:] + EDGES[:-1]) / 2
+    for row, found in enumerate(rows):
+        for column in range(columns):
+            ax = axes[row * columns + column]
+            if column >= len(found):
+                ax.set_visible(False)
+                continue
+            foam = found[column]
+            mean, error = foam.density.mean, foam.density.error
+            late = [state for run in foam.states for state in run if state.N <= foam.row["bubbles"] / LATE * 1.001]
+            ax.stairs(np.mean([state.loose for state in late], axis=0), EDGES, color="C1", fill=True, alpha=0.4,
+                      label="rattlers")
+            ax.stairs(mean, EDGES, color="C0", label="all")
+            ax.errorbar(middle, mean, error, fmt="none", ecolor="C0", lw=0.8)
+            for theory, style in (("lsw", "k--"), ("lemlich", "k:")):
+                ax.plot(x, sizes.density_over_mean(theory, x, 3), style, lw=0.8,
+                        label="LSW" if theory == "lsw" else "Lemlich")
+            ax.set(title=f"{foam.series}, {foam.fraction:.2f}", xlim=(0, 3), ylim=(0, 2.3))
+            if row == len(rows) - 1:
+                ax.set(xlabel=r"$R / \langle R\rangle$")
+        axes[row * columns].set(ylabel="density")
     axes[0].legend()
-    figure.save(fig, base)
+    save(fig, base, pdf)
+
+
+# ------------------------------------------------------------------ on the way
+
+def draw_approach(foams: tables.Foams, base: Path, pdf: bool) -> None:
+    """Width of sizes, rattlers and share of gas through films while bubbles vanish, without and with adhesion."""
+    what = (("sizes", 0, r"sd / $\langle R\rangle$"), ("means", 2, "share of rattlers"),
+            ("means", 4, "share of gas through films"))
+    fig, axes = figure.panels(1, 3, width=2.6, height=2.4)
+    found = nearest(foams, "spring", scaling=False)
+    for number, foam in enumerate(found):
+        first = foam.row["bubbles"]
+        for ax, (kind, index, _) in zip(axes, what):
+            states = foam.states[0]
+            ax.errorbar([state.N / first for state in states], [getattr(state, kind)[index] for state in states],
+                        [getattr(state, f"{kind}_error")[index] for state in states], fmt=MARKS[number] + "-",
+                        color=f"C{number}", lw=0.8, label=f"{foam.fraction:.2f}")
+    for ax, (_, _, label) in zip(axes, what):
+        ax.set(xscale="log", xlabel="bubbles left / bubbles at the start", ylabel=label)
+        figure.plain_ticks(ax, "x")
+        ax.axvspan(1 / LATE, ax.get_xlim()[1], color="0.93", zorder=0)
+        ax.invert_xaxis()
+    fig.legend(*axes[0].get_legend_handles_labels(), title="liquid fraction", loc="outside right center")
+    save(fig, base, pdf)
+
+
+# ------------------------------------------------------------------ pictures of the foam
+
+def draw_slices(foams: tables.Foams, directory: Path, base: Path, pdf: bool) -> None:
+    """A plane through the last states; rattlers are orange."""
+    rows = [[(foam, last_frame(directory, foam)) for foam in nearest(foams, series, scaling=False)]
+            for series in ("spring", "sticky0.05")]
+    rows = [row for row in rows if row]
+    if not rows:
+        return
+    columns = max(map(len, rows))
+    fig, axes = figure.panels(len(rows), columns, width=1.9, height=2.05)
+    for ax in axes:
+        ax.set_visible(False)
+    for number, row in enumerate(rows):
+        for ax, (foam, frame) in zip(axes[number * columns:], row):
+            ax.set_visible(True)
+            slice_of(ax, frame, attraction(foam.series))
+            ax.set_title(f"{foam.series}, {foam.fraction:.2f}, N = {len(frame)}")
+    save(fig, base, pdf)
+
+
+def last_frame(directory: Path, foam: Foam) -> Frame:
+    """The late state with the most bubbles, or the last one."""
+    path = min(directory.glob(f"{foam.series}-{foam.fraction:.2f}-*/left.lammpstrj"))
+    frames = list(read_frames(path))
+    late = [frame for frame in frames if len(frame) <= foam.row["bubbles"] / LATE * 1.001]
+    return late[0] if late else frames[-1]
+
+
+def slice_of(ax, frame: Frame, A: float) -> None:
+    """Circles in which the plane z = middle cuts the bubbles, with their periodic images."""
+    box, R = frame.box, frame.radius
+    loose = ~contacts.contacts_of(frame.positions, R, box, reach=1 + A).backbone
+    x = into_brick(frame.positions, box) - box.lo
+    side = box.lengths
+    height = x[:, 2] - side[2] / 2
+    height -= np.round(height / side[2]) * side[2]
+    for k in np.flatnonzero(np.abs(height) < R):
+        r = np.sqrt(R[k]**2 - height[k]**2)
+        for shift_x in (-side[0], 0, side[0]):
+            for shift_y in (-side[1], 0, side[1]):
+                center = x[k, 0] + shift_x, x[k, 1] + shift_y
+                if all(-r < c < s + r for c, s in zip(center, side)):
+                    ax.add_patch(figure.plt.Circle(center, r, fc="C4" if loose[k] else "#cfe3f2", ec="0.25", lw=0.4))
+    ax.set(xlim=(0, side[0]), ylim=(0, side[1]), aspect="equal", xticks=[], yticks=[])
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("directory", type=Path, metavar="DIR", help="the --out of run.py")
+    parser.add_argument("--out", type=Path, metavar="FOLDER", help="of figures and tables (default: DIR)")
+    parser.add_argument("--full", action="store_true", help="list all runs of run.py --full")
+    parser.add_argument("--no-pdf", action="store_true", help="PNG alone")
+    args = parser.parse_args()
+    if not args.directory.is_dir():
+        parser.error(f"{args.directory} is no directory; it should be the --out of run.py")
+    try:
+        draw(args.directory, args.out, args.full, not args.no_pdf)
+    except Unusable as wrong:
+        sys.exit(str(wrong))
 
 
 if __name__ == "__main__":
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("directory", type=Path, metavar="DIR")
-    try:
-        draw(parser.parse_args().directory)
-    except Unusable as wrong:
-        sys.exit(str(wrong))
+    main()

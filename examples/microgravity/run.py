@@ -26,6 +26,12 @@ SERIES = {                 # name: law of contact, law of the exchange through t
     "kappa1": ("spring", "lsw", 1.0),
     "films": ("spring", "lsw", 0.0),
 }
+CHECKS = {                 # the same, with one more thing changed: does it matter?
+    "slow": (*SERIES["spring"], "K", 1.0e-4),
+    "sticky0.05-slow": (*SERIES["sticky0.05"], "K", 1.0e-4),
+    "fine": (*SERIES["spring"], "tol", 1.0e-4),
+}
+ALL = {**SERIES, **CHECKS}
 FRACTIONS = [0.15, 0.20, 0.25, 0.30, 0.33, 0.36, 0.40, 0.45, 0.50]
 
 
@@ -45,10 +51,12 @@ class Run:
         return 30000 if self.full else 2000
 
     def arguments(self):
-        law, liquid, kappa = SERIES[self.series]
+        law, liquid, kappa, *more = ALL[self.series]
         left = [15000, 10000, 7500, 5000, 3750, 2500, 1875, 1400, 1000] if self.full else [1000, 700, 500, 350, 250]
         words = ["-var", "N", self.bubbles, "-var", "left", *left, "-var", "liquidfraction", self.liquid_fraction]
         words += ["-var", "law", law, "-var", "liquid", liquid, "-var", "kappa", kappa, "-var", "seed", self.seed]
+        if more:
+            words += ["-var", *more]
         return list(map(str, words))
 
 
@@ -95,8 +103,8 @@ def main():
                         help='how to start LAMMPS, as one string (default "%(default)s")')
     parser.add_argument("--out", default="out", type=Path, metavar="DIR", help="where everything is written")
     parser.add_argument("--full", action="store_true", help="30 000 bubbles in the place of 2000")
-    parser.add_argument("--series", nargs="+", choices=SERIES,
-                        help="laws (default: spring, sticky0.05; with --full all)")
+    parser.add_argument("--series", nargs="+", choices=ALL,
+                        help="laws (default: spring, sticky0.05; with --full all but slow and fine)")
     parser.add_argument("--fractions", nargs="+", type=float, metavar="X",
                         help="liquid fractions (default: 0.20 0.30 0.36 0.45; with --full 0.15 to 0.50)")
     parser.add_argument("--seeds", nargs="+", type=int, default=[1])

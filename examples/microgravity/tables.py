@@ -1,0 +1,333 @@
+"""Tables of plot.py for the manual: what was measured, crossovers, checks, and the published statements beside ours.
+
+Each conclusion is made from the numbers of the runs. What is not run yet is said to be so.
+"""
+from __future__ import annotations
+
+import numpy as np
+
+from crossover import MIDDLE, QUARTERS, Crossing, crossing, peaks
+from lammps_foam.analysis import table
+from states import EDGES, Foam
+
+Foams = dict[tuple[str, float], Foam]
+Rows = list[dict[str, str]]
+ADHESION = ["spring", "sticky0.01", "sticky0.05"]
+EXCHANGE = ["spring", "kappa1", "kappa0.01", "films", "area", "sticky0.01-area"]
+MISSING = "not run yet"
+SIGMAS = 2.0           # two values agree if they differ by less standard errors
+PEAK_SIGMAS = 3.0      # of a valley between two peaks: there are 40 bins, and some differ by two by chance
+NEAR = 1 / 12          # an exponent with a larger error than half of 1/2 - 1/3 tells neither from the other
+
+
+def short(value: float, error: float) -> str:
+    """0.333(12): the last digits are uncertain by those in parentheses."""
+    if not error > 0 or not np.isfinite(error):
+        return f"{value:.3g}"
+    digits = max(0, 1 - int(np.floor(np.log10(error))))
+    scale = 10**digits
+    return f"{value:.{digits}f}({error * scale:.0f})" if error < 1 else f"{value:.0f}({error:.0f})"
+
+
+def cell(foams: Foams, key: tuple[str, float], name: str) -> str:
+    if key not in foams:
+        return MISSING
+    foam = foams[key]
+    if not foam.scales:
+        return f"stops at {foam.row['last_N']:.0f}"
+    return short(foam.row[name], foam.row[f"{name}_error"])
+
+
+def matrix(foams: Foams, series: list[str], fractions: list[float], name: str) -> Rows:
+    """A quantity: liquid fractions below each other, series beside each other."""
+    return [{"liquid fraction": f"{fraction:.2f}", **{one: cell(foams, (one, fraction), name) for one in series}}
+            for fraction in fractions]
+
+
+def column(foams: Foams, series: str, name: str) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Liquid fractions, values and errors of a series, where it has late states and the error is known."""
+    rows = [(fraction, foam.row[name], foam.row[f"{name}_error"]) for (one, fraction), foam in sorted(foams.items())
+            if one == series and foam.scales]
+    x, y, e = np.array(rows, dtype=float).reshape(-1, 3).T
+    good = np.isfinite(y) & np.isfinite(e)
+    return x[good], y[good], e[good]
+
+
+# ------------------------------------------------------------------ crossovers
+
+READINGS = {"exponent": ("1/n", MIDDLE), "rattlers": ("rattlers", 0.5), "films": ("through_films", 0.5)}
+
+
+def read_off(foams: Foams, series: str, what: str) -> Crossing:
+    name, level = READINGS[what]
+    x, y, e = column(foams, series, name)
+    if what == "exponent":     # an exponent that is hardly known moves the crossing anywhere
+        known = e < NEAR
+        x, y, e = x[known], y[known], e[known]
+    return crossing(x, y, e, level)
+
+
+def width_of(foams: Foams, series: str) -> tuple[float, float]:
+    """Liquid fractions over which 1/n goes through the middle half of its way, with the error; nan if it does not."""
+    x, y, e = column(foams, series, "1/n")
+    known = e < NEAR
+    ends = [crossing(x[known], y[known], e[known], level) for level in QUARTERS]
+    if not all(end.found for end in ends):
+        return float("nan"), float("nan")
+    return ends[1].value - ends[0].value, float(np.hypot(ends[0].error, ends[1].error))
+
+
+def shown(found: Crossing, foams: Foams, series: str) -> str:
+    if found.found:
+        return short(found.value, found.error)
+    x = sorted(fraction for one, fraction in foams if one == series)
+    return f"not between {x[0]:.2f} and {x[-1]:.2f}" if len(x) > 1 else MISSING
+
+
+def crossovers(foams: Foams, series: list[str]) -> Rows:
+    rows = []
+    for one in series:
+        wide, error = width_of(foams, one)
+        rows.append({"series": one, "exponent": shown(read_off(foams, one, "exponent"), foams, one),
+                     "its width": short(wide, error) if np.isfinite(wide) else
+                     ("not known" if any(name == one for name, _ in foams) else MISSING),
+                     "rattlers": shown(read_off(foams, one, "rattlers"), foams, one),
+                     "films": shown(read_off(foams, one, "films"), foams, one)})
+    return rows
+
+
+def shifts(foams: Foams) -> Rows:
+    """How far adhesion moves each crossover from that of the spring."""
+    rows = []
+    for one in ADHESION[1:]:
+        row = {"series": one}
+        for what in READINGS:
+            a, b = read_off(foams, "spring", what), read_off(foams, one, what)
+            row[what] = shift(a, b, column(foams, one, READINGS[what][0]), READINGS[what][1], what == "rattlers")
+        rows.append(row)
+    return rows
+
+
+def shift(spring: Crossing, other: Crossing, points, level: float, rises: bool) -> str:
+    """The shift and whether it is larger than its error; or that the other series does not cross where it was run."""
+    x, y, error = points
+    if spring.found and other.found:
+        by, error = other.value - spring.value, float(np.hypot(spring.error, other.error))
+        verdict = "moved" if abs(by) > SIGMAS * error else "not moved beyond the error"
+        return f"{'+' if by > 0 else ''}{short(by, error)}: {verdict}"
+    if len(x) < 2:
+        return MISSING
+    dry_side = (level - y if rises else y - level) > SIGMAS * error
+    return f"moved beyond {x[-1]:.2f}" if spring.found and x[-1] > spring.value and dry_side.all() else "not known"
+
+
+# ------------------------------------------------------------------ sizes
+
+def size_table(foams: Foams, series: str, fractions: list[float]) -> Rows:
+    rows = []
+    for fraction in fractions:
+        row = {"liquid fraction": f"{fraction:.2f}"}
+        foam = foams.get((series, fraction))
+        for name, head in (("width", "sd"), ("skewness", "skewness"), ("below_0.5", "below 0.5"),
+                           ("below_0.3", "below 0.3"), ("rattlers", "rattlers"), ("rattlers_gas", "gas in rattlers")):
+            row[head] = cell(foams, (series, fraction), name)
+        row["peaks"] = said_peaks(foam) if foam else MISSING
+        rows.append(row)
+    return rows
+
+
+def said_peaks(foam: Foam) -> str:
+    if foam.density is None:
+        return "none"
+    middle = (EDGES[1:] + EDGES[:-1]) / 2
+    stands_out, left, right, _ = peaks(foam.density.mean, foam.density.error)
+    if stands_out < PEAK_SIGMAS:
+        return f"one, {middle[int(np.argmax(foam.density.mean))]:.2f}"
+    return f"two, {middle[left]:.2f} and {middle[right]:.2f}"
+
+
+# ------------------------------------------------------------------ checks of the set-up
+
+def drift(foam: Foam, index: int, kind: str) -> tuple[float, float]:
+    """Change of a number from the first to the last late state of the first run, with its error."""
+    late = [state for state in foam.states[0] if state.N <= foam.row["bubbles"] / 4 * 1.001]
+    first, last = late[0], late[-1]
+    a, b = (getattr(state, kind)[index] for state in (first, last))
+    errors = [getattr(state, f"{kind}_error")[index] for state in (first, last)]
+    return float(b - a), float(np.hypot(*errors))
+
+
+def checks(foams: Foams) -> Rows:
+    scaling = {key: foam for key, foam in foams.items() if foam.scales}
+    if not scaling:
+        return [{"check": "all", "result": MISSING}]
+    all_foams = list(foams.values())
+    jammed = [foam.row["imbalance"] for foam in scaling.values() if foam.row["rattlers"] < 0.5]
+    loose = [foam.row["imbalance"] for foam in scaling.values() if foam.row["rattlers"] >= 0.5]
+    rows = [("gas fraction, largest relative change in a run", f"{max(f.row['gas_change'] for f in all_foams):.1e}"),
+            ("bubbles at the end of runs with late states", range_of([f.row["last_N"] for f in scaling.values()], ".0f")),
+            ("largest diameter over the side of the box, at the end", range_of([f.row["across"] for f in scaling.values()])),
+            ("net force over contact forces, foams with fewer than half rattlers", range_of(jammed)),
+            ("the same, foams with more rattlers", range_of(loose)),
+            ("overlaps: liquid fraction with overlaps counted once, less that of the model",
+             range_of([f.row["liquid"] - f.fraction for f in scaling.values()], ".4f"))]
+    for title, index, kind in (("width of sizes", 0, "sizes"), ("share of rattlers", 2, "means"),
+                               ("share of gas through films", 4, "means")):
+        moved = [drift(foam, index, kind) for foam in scaling.values()]
+        many = sum(abs(by) > SIGMAS * error for by, error in moved)
+        rows.append((f"{title}, change from the first to the last late state",
+                     f"beyond two standard errors in {many} of {len(moved)} foams; {range_of([by for by, _ in moved])}"))
+    for other, base, what in (("slow", "spring", "a tenth of K"), ("sticky0.05-slow", "sticky0.05", "a tenth of K, sticky"),
+                              ("fine", "spring", "a tenth of the tolerance")):
+        rows.append((what, compared(foams, base, other)))
+    return [{"check": check, "result": result} for check, result in rows]
+
+
+def range_of(values: list[float], digits: str = ".3f") -> str:
+    if not values:
+        return MISSING
+    low, high = f"{min(values):{digits}}", f"{max(values):{digits}}"
+    return low if low == high else f"{low} to {high}"
+
+
+def compared(foams: Foams, base: str, other: str) -> str:
+    """Differences of contacts, rattlers and widths at the same liquid fractions, in standard errors."""
+    names = {"z_wide": "contacts", "rattlers": "rattlers", "width": "width", "through_films": "films"}
+    both = [(foam.row, foams[base, fraction].row) for (one, fraction), foam in foams.items()
+            if one == other and foam.scales and (base, fraction) in foams and foams[base, fraction].scales
+            and foams[base, fraction].row["bubbles"] == foam.row["bubbles"]]
+    if not both:
+        return MISSING
+    said = []
+    for name, title in names.items():
+        by = [(a[name] - b[name]) for a, b in both]
+        error = [np.hypot(a[f"{name}_error"], b[f"{name}_error"]) for a, b in both]
+        worst = max(range(len(by)), key=lambda k: abs(by[k]) / error[k] if error[k] > 0 else 0.0)
+        said.append(f"{title} {'+' if by[worst] > 0 else ''}{short(by[worst], error[worst])}")
+    return f"largest differences at {len(both)} liquid fractions: " + ", ".join(said)
+
+
+# ------------------------------------------------------------------ conclusions
+
+def verdict(value: float, error: float) -> str:
+    if not error < NEAR:
+        return "too uncertain to tell 1/2 from 1/3"
+    near = [text for number, text in ((1 / 2, "1/2"), (1 / 3, "1/3"), (1 / 4, "1/4"))
+            if abs(value - number) <= SIGMAS * error]
+    return f"within two standard errors of {' and '.join(near)}" if near else "neither 1/2 nor 1/3"
+
+
+def at_end(foams: Foams, series: str, wet: bool) -> str:
+    x, y, e = column(foams, series, "1/n")
+    if not len(x):
+        return MISSING
+    k = -1 if wet else 0
+    return f"{short(y[k], e[k])} at {x[k]:.2f}, {verdict(y[k], e[k])}"
+
+
+def pairs_of(foams: Foams, series: str, name: str) -> str:
+    x, y, e = column(foams, series, name)
+    return ", ".join(f"{short(b, c)} at {a:.2f}" for a, b, c in zip(x, y, e)) or MISSING
+
+
+def two_peaks(foams: Foams, series: str) -> str:
+    found = [(fraction, said_peaks(foam)) for (one, fraction), foam in sorted(foams.items())
+             if one == series and foam.scales]
+    if not found:
+        return MISSING
+    two = [f"{fraction:.2f}" for fraction, said in found if said.startswith("two")]
+    one = [f"{fraction:.2f}" for fraction, said in found if said.startswith("one")]
+    return "; ".join(f"{count} at {', '.join(where)}" for count, where in (("two peaks", two), ("one peak", one)) if where)
+
+
+def stopped(foams: Foams) -> str:
+    found = [foam for (one, _), foam in sorted(foams.items()) if one == "films"]
+    if not found:
+        return MISSING
+    ends = [f"at {foam.fraction:.2f} the run ends with {foam.row['last_N']:.0f} of {foam.row['bubbles']:.0f} bubbles"
+            + ("" if foam.scales else ", which exchange no more gas") for foam in found]
+    return "; ".join(ends)
+
+
+def unjamming(foams: Foams, series: list[str]) -> str:
+    return "; ".join(f"{one} {shown(read_off(foams, one, 'rattlers'), foams, one)}" for one in series)
+
+
+def summary(foams: Foams) -> Rows:
+    """Published statements, and ours."""
+    rows = [
+        ("Isert et al. [I13]_", "exponent 1/2 in dry foams", f"spring: 1/n = {at_end(foams, 'spring', False)}"),
+        ("the same", "exponent 1/3 in wet foams", f"spring: 1/n = {at_end(foams, 'spring', True)}"),
+        ("the same", "the laws change at a liquid fraction of about 0.30 [I13r]_",
+         f"spring, middle of the exponent: {shown(read_off(foams, 'spring', 'exponent'), foams, 'spring')}"),
+        ("Pasquet et al. [P23]_", "a sharp crossover at :math:`\\varphi^*`", f"width of the crossover, spring: {said_width(foams)}"),
+        ("the same", ":math:`\\varphi^*` is significantly larger than random close packing, for weak adhesion",
+         f"half rattlers: {unjamming(foams, ADHESION)}"),
+        ("Galvani et al. [G23]_", "an excess of small roaming bubbles below :math:`\\varphi^*`",
+         f"spring: {two_peaks(foams, 'spring')}; rattlers {pairs_of(foams, 'spring', 'rattlers')}"),
+        ("the same", "a single narrow distribution above :math:`\\varphi^*`",
+         f"spring: sd {pairs_of(foams, 'spring', 'width')}"),
+        ("Morgan & Cox [M26]_", "no adhesion, films only: unjamming at about 0.36",
+         f"spring, half rattlers: {unjamming(foams, ['spring'])}"),
+        ("the same", "many small bubbles, and no rattlers", f"films: {stopped(foams)}"),
+    ]
+    return [{"source": a, "published": b, "here": c} for a, b, c in rows]
+
+
+def said_width(foams: Foams) -> str:
+    wide, error = width_of(foams, "spring")
+    if np.isfinite(wide):
+        return f"{short(wide, error)} in the liquid fraction"
+    return "not known" if any(one == "spring" for one, _ in foams) else MISSING
+
+
+def findings(foams: Foams) -> str:
+    """Bullets for the manual."""
+    if not foams:
+        return f"* {MISSING}.\n"
+    bubbles = sorted({foam.row["bubbles"] for foam in foams.values()})
+    by = {row["series"]: row for row in shifts(foams)}
+    films = {one: shown(read_off(foams, one, "films"), foams, one) for one in EXCHANGE}
+    lines = [
+        f"These numbers are of runs that begin with {' and '.join(f'{n:.0f}' for n in bubbles)} bubbles.",
+        f"**Exponent.** With *spring* 1/n is {at_end(foams, 'spring', False)}. It is {at_end(foams, 'spring', True)}.",
+        "**Crossover.** With *spring* the middle of the exponent's way is at "
+        f"{shown(read_off(foams, 'spring', 'exponent'), foams, 'spring')}. Its width is {said_width(foams)}. Half of the "
+        f"gas goes through films at {shown(read_off(foams, 'spring', 'films'), foams, 'spring')}. Half of the bubbles are "
+        f"rattlers at {shown(read_off(foams, 'spring', 'rattlers'), foams, 'spring')}.",
+        *(f"**Adhesion,** *{one}*. Shift of the exponent's middle: {row['exponent']}. Of half rattlers: "
+          f"{row['rattlers']}. Of half of the gas through films: {row['films']}." for one, row in by.items()),
+        f"**Rattlers.** *spring*: {pairs_of(foams, 'spring', 'rattlers')}. *sticky0.05*: "
+        f"{pairs_of(foams, 'sticky0.05', 'rattlers')}.",
+        f"**Sizes.** *spring*: {two_peaks(foams, 'spring')}. *sticky0.05*: {two_peaks(foams, 'sticky0.05')}.",
+        "**Exchange.** Half of the gas goes through films at: "
+        + ", ".join(f"*{one}* {where}" for one, where in films.items() if one != "films") + ".",
+        f"**Films alone.** {stopped(foams).capitalize()}.",
+    ]
+    return "".join(f"* {line}\n" for line in lines)
+
+
+def run_table(foams: Foams, wanted) -> Rows:
+    """Each run that is wanted or there, with what it took."""
+    keys = list(dict.fromkeys([*wanted, *foams]))
+    rows = []
+    for series, fraction in keys:
+        foam = foams.get((series, fraction))
+        row = {"series": series, "liquid fraction": f"{fraction:.2f}"}
+        if foam:
+            row |= {"runs": f"{foam.row['runs']}", "bubbles": f"{foam.row['bubbles']:.0f} to {foam.row['last_N']:.0f}",
+                    "range of :math:`\\tau`": f"{foam.row['tau_from']:.0f} to {foam.row['tau_to']:.0f}" if foam.scales
+                    else f"stops at {foam.row['last_tau']:.0f}", "minutes": f"{foam.row['minutes']:.0f}"}
+        else:
+            row |= {"runs": MISSING, "bubbles": "", "range of :math:`\\tau`": "", "minutes": ""}
+        rows.append(row)
+    return rows
+
+
+def as_columns(rows: list[dict]) -> dict[str, list]:
+    heads = list(dict.fromkeys(head for row in rows for head in row))
+    return {head: [row.get(head, float("nan")) for row in rows] for head in heads}
+
+
+def write(rows: list[dict], path) -> None:
+    table.write(as_columns(rows), path)
