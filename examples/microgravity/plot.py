@@ -26,7 +26,8 @@ from states import EDGES, LATE, Foam, attraction, foams_in
 DPI = 200
 PANELS = (("1/n", "growth exponent 1/n"), ("rattlers", "share of rattlers"),
           ("z_wide", r"neighbors at $r < 1.05\,(R_i+R_j)$"), ("through_films", "share of gas through films"),
-          ("width", r"width of sizes, sd / $\langle R\rangle$"), ("below_0.5", r"share of bubbles below $0.5\,\langle R\rangle$"))
+          ("width", r"width of sizes, sd / $\langle R\rangle$"),
+          ("below_0.5", r"share of bubbles below $0.5\,\langle R\rangle$"))
 MARKS = "os^Dv<>p"
 SHOWN = (0.20, 0.30, 0.36, 0.45)      # liquid fractions of size distributions and slices
 UNCERTAIN = 0.15                      # exponents with a larger error are not drawn
@@ -50,8 +51,8 @@ def draw(directory: Path, out: Path | None = None, full: bool = False, pdf: bool
 
 def write_tables(foams: tables.Foams, fractions: list[float], full: bool, out: Path) -> None:
     fractions = fractions or FRACTIONS
-    for name, what in (("1/n", "exponents"), ("beta", "slopes"), ("1/n_R32", "exponents-sauter"), ("z_wide", "contacts"),
-                       ("rattlers", "rattlers"), ("through_films", "films")):
+    for name, what in (("1/n", "exponents"), ("beta", "slopes"), ("1/n_R32", "exponents-sauter"),
+                       ("z_wide", "contacts"), ("rattlers", "rattlers"), ("through_films", "films")):
         tables.write(tables.matrix(foams, tables.ADHESION, fractions, name), out / f"{what}-adhesion.csv")
         tables.write(tables.matrix(foams, tables.EXCHANGE, fractions, name), out / f"{what}-exchange.csv")
     for series in ("spring", "sticky0.05"):
@@ -61,8 +62,7 @@ def write_tables(foams: tables.Foams, fractions: list[float], full: bool, out: P
     tables.write(tables.checks(foams), out / "checks.csv")
     tables.write(tables.summary(foams), out / "summary.csv")
     (out / "findings.txt").write_text(tables.findings(foams))
-    wanted = [(series, fraction) for series in SERIES for fraction in FRACTIONS] if full else []
-    tables.write(tables.run_table(foams, wanted) or [{"series": tables.MISSING}], out / "runs.csv")
+    tables.write(tables.run_table(foams, list(SERIES), fractions), out / "runs.csv")
     numbers = [{"series": foam.series, "liquid_fraction": foam.fraction, **foam.row} for foam in foams.values()]
     tables.write(numbers or [{"series": tables.MISSING}], out / "microgravity.csv")
 

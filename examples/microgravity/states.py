@@ -148,7 +148,8 @@ def exponents(series: list, start: float, end: float) -> dict[str, float]:
     """Slopes and exponents of <R>; 1/n of the Sauter radius; slopes in the first and the second half of ln tau."""
     fit = growth.fit(series, start, end)
     row = {"beta": fit.beta, "beta_error": fit.beta_error, "1/n": 1 / fit.origin[0],
-           "1/n_error": fit.origin_error[0] / fit.origin[0]**2, "tau0": fit.origin[1], "tau0_error": fit.origin_error[1]}
+           "1/n_error": fit.origin_error[0] / fit.origin[0]**2,
+           "tau0": fit.origin[1], "tau0_error": fit.origin_error[1]}
     sauter = growth.fit([{**one, "R": one["R32"]} for one in series], start, end)
     row |= {"1/n_R32": 1 / sauter.origin[0], "1/n_R32_error": sauter.origin_error[0] / sauter.origin[0]**2}
     return row
@@ -158,7 +159,8 @@ def foam_of(name: str, fraction: float, paths: list[Path]) -> Foam:
     series = runs.read_runs(paths, ["R", "N", "R32", "phi", "energy"])
     states = [states_of(path, name) for path in paths]
     first = series[0]["N"][0]
-    row: dict[str, float] = {"runs": len(paths), "bubbles": float(first), "last_N": float(max(s["N"][-1] for s in series)),
+    row: dict[str, float] = {"runs": len(paths), "bubbles": float(first),
+                             "last_N": float(max(s["N"][-1] for s in series)),
                              "last_tau": float(min(s["tau"][-1] for s in series)),
                              "gas_change": float(max(np.max(np.abs(s["phi"] / s["phi"][0] - 1)) for s in series)),
                              "minutes": sum(map(minutes, paths))}

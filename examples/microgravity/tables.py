@@ -21,12 +21,12 @@ NEAR = 1 / 12          # an exponent with a larger error than half of 1/2 - 1/3 
 
 
 def short(value: float, error: float) -> str:
-    """0.333(12): the last digits are uncertain by those in parentheses."""
+    """0.333(12): the last digits are uncertain by those in parentheses. 7.0(1.6) where the error is above 1."""
     if not error > 0 or not np.isfinite(error):
         return f"{value:.3g}"
     digits = max(0, 1 - int(np.floor(np.log10(error))))
-    scale = 10**digits
-    return f"{value:.{digits}f}({error * scale:.0f})" if error < 1 else f"{value:.0f}({error:.0f})"
+    shown_error = f"{error * 10**digits:.0f}" if error < 1 else f"{error:.{digits}f}"
+    return f"{value:.{digits}f}({shown_error})"
 
 
 def cell(foams: Foams, key: tuple[str, float], name: str) -> str:
@@ -165,8 +165,10 @@ def checks(foams: Foams) -> Rows:
     jammed = [foam.row["imbalance"] for foam in scaling.values() if foam.row["rattlers"] < 0.5]
     loose = [foam.row["imbalance"] for foam in scaling.values() if foam.row["rattlers"] >= 0.5]
     rows = [("gas fraction, largest relative change in a run", f"{max(f.row['gas_change'] for f in all_foams):.1e}"),
-            ("bubbles at the end of runs with late states", range_of([f.row["last_N"] for f in scaling.values()], ".0f")),
-            ("largest diameter over the side of the box, at the end", range_of([f.row["across"] for f in scaling.values()])),
+            ("bubbles at the end of runs with late states",
+             range_of([f.row["last_N"] for f in scaling.values()], ".0f")),
+            ("largest diameter over the side of the box, at the end",
+             range_of([f.row["across"] for f in scaling.values()])),
             ("net force over contact forces, foams with fewer than half rattlers", range_of(jammed)),
             ("the same, foams with more rattlers", range_of(loose)),
             ("overlaps: liquid fraction with overlaps counted once, less that of the model",
@@ -176,9 +178,11 @@ def checks(foams: Foams) -> Rows:
         moved = [drift(foam, index, kind) for foam in scaling.values()]
         many = sum(abs(by) > SIGMAS * error for by, error in moved)
         rows.append((f"{title}, change from the first to the last late state",
-                     f"beyond two standard errors in {many} of {len(moved)} foams; {range_of([by for by, _ in moved])}"))
-    for other, base, what in (("slow", "spring", "a tenth of K"), ("sticky0.05-slow", "sticky0.05", "a tenth of K, sticky"),
-                              ("fine", "spring", "a tenth of the tolerance")):
+                     f"beyond two standard errors in {many} of {len(moved)} foams; "
+                     f"{range_of([by for by, _ in moved])}"))
+    for other, base, what in (("slow", "spring", "a tenth of K, *spring*"),
+                              ("sticky0.05-slow", "sticky0.05", "a tenth of K, *sticky* 0.05"),
+                              ("fine", "spring", "a tenth of the tolerance, *spring*")):
         rows.append((what, compared(foams, base, other)))
     return [{"check": check, "result": result} for check, result in rows]
 
@@ -237,7 +241,8 @@ def two_peaks(foams: Foams, series: str) -> str:
         return MISSING
     two = [f"{fraction:.2f}" for fraction, said in found if said.startswith("two")]
     one = [f"{fraction:.2f}" for fraction, said in found if said.startswith("one")]
-    return "; ".join(f"{count} at {', '.join(where)}" for count, where in (("two peaks", two), ("one peak", one)) if where)
+    return "; ".join(f"{count} at {', '.join(where)}"
+                     for count, where in (("two peaks", two), ("one peak", one)) if where)
 
 
 def stopped(foams: Foams) -> str:
@@ -260,7 +265,8 @@ def summary(foams: Foams) -> Rows:
         ("the same", "exponent 1/3 in wet foams", f"spring: 1/n = {at_end(foams, 'spring', True)}"),
         ("the same", "the laws change at a liquid fraction of about 0.30 [I13r]_",
          f"spring, middle of the exponent: {shown(read_off(foams, 'spring', 'exponent'), foams, 'spring')}"),
-        ("Pasquet et al. [P23]_", "a sharp crossover at :math:`\\varphi^*`", f"width of the crossover, spring: {said_width(foams)}"),
+        ("Pasquet et al. [P23]_", "a sharp crossover at :math:`\\varphi^*`",
+         f"width of the crossover, spring: {said_width(foams)}"),
         ("the same", ":math:`\\varphi^*` is significantly larger than random close packing, for weak adhesion",
          f"half rattlers: {unjamming(foams, ADHESION)}"),
         ("Galvani et al. [G23]_", "an excess of small roaming bubbles below :math:`\\varphi^*`",
@@ -286,40 +292,36 @@ def findings(foams: Foams) -> str:
     if not foams:
         return f"* {MISSING}.\n"
     bubbles = sorted({foam.row["bubbles"] for foam in foams.values()})
-    by = {row["series"]: row for row in shifts(foams)}
-    films = {one: shown(read_off(foams, one, "films"), foams, one) for one in EXCHANGE}
+    middle, films, rattlers = (shown(read_off(foams, "spring", what), foams, "spring")
+                               for what in ("exponent", "films", "rattlers"))
+    halves = ", ".join(f"*{one}* {shown(read_off(foams, one, 'films'), foams, one)}"
+                       for one in EXCHANGE if one != "films")
     lines = [
         f"These numbers are of runs that begin with {' and '.join(f'{n:.0f}' for n in bubbles)} bubbles.",
-        f"**Exponent.** With *spring* 1/n is {at_end(foams, 'spring', False)}. It is {at_end(foams, 'spring', True)}.",
-        "**Crossover.** With *spring* the middle of the exponent's way is at "
-        f"{shown(read_off(foams, 'spring', 'exponent'), foams, 'spring')}. Its width is {said_width(foams)}. Half of the "
-        f"gas goes through films at {shown(read_off(foams, 'spring', 'films'), foams, 'spring')}. Half of the bubbles are "
-        f"rattlers at {shown(read_off(foams, 'spring', 'rattlers'), foams, 'spring')}.",
-        *(f"**Adhesion,** *{one}*. Shift of the exponent's middle: {row['exponent']}. Of half rattlers: "
-          f"{row['rattlers']}. Of half of the gas through films: {row['films']}." for one, row in by.items()),
-        f"**Rattlers.** *spring*: {pairs_of(foams, 'spring', 'rattlers')}. *sticky0.05*: "
-        f"{pairs_of(foams, 'sticky0.05', 'rattlers')}.",
-        f"**Sizes.** *spring*: {two_peaks(foams, 'spring')}. *sticky0.05*: {two_peaks(foams, 'sticky0.05')}.",
-        "**Exchange.** Half of the gas goes through films at: "
-        + ", ".join(f"*{one}* {where}" for one, where in films.items() if one != "films") + ".",
+        f"**Exponent,** *spring*. 1/n is {at_end(foams, 'spring', False)}. It is {at_end(foams, 'spring', True)}.",
+        f"**Crossover,** *spring*. Middle of the exponent's way: {middle}. Its width: {said_width(foams)}. Half of the "
+        f"gas through films: {films}. Half of the bubbles rattlers: {rattlers}.",
+        *(f"**Adhesion,** *{row['series']}*. Shift of the exponent's middle: {row['exponent']}. Of half rattlers: "
+          f"{row['rattlers']}. Of half of the gas through films: {row['films']}." for row in shifts(foams)),
+        *(f"**Rattlers,** *{one}*. Their share: {pairs_of(foams, one, 'rattlers')}."
+          for one in ("spring", "sticky0.05")),
+        *(f"**Sizes,** *{one}*. {two_peaks(foams, one).capitalize()}." for one in ("spring", "sticky0.05")),
+        f"**Exchange.** Half of the gas through films: {halves}.",
         f"**Films alone.** {stopped(foams).capitalize()}.",
     ]
     return "".join(f"* {line}\n" for line in lines)
 
 
-def run_table(foams: Foams, wanted) -> Rows:
-    """Each run that is wanted or there, with what it took."""
-    keys = list(dict.fromkeys([*wanted, *foams]))
+def run_table(foams: Foams, series: list[str], fractions: list[float]) -> Rows:
+    """What each run took: liquid fractions below each other, series beside each other."""
     rows = []
-    for series, fraction in keys:
-        foam = foams.get((series, fraction))
-        row = {"series": series, "liquid fraction": f"{fraction:.2f}"}
-        if foam:
-            row |= {"runs": f"{foam.row['runs']}", "bubbles": f"{foam.row['bubbles']:.0f} to {foam.row['last_N']:.0f}",
-                    "range of :math:`\\tau`": f"{foam.row['tau_from']:.0f} to {foam.row['tau_to']:.0f}" if foam.scales
-                    else f"stops at {foam.row['last_tau']:.0f}", "minutes": f"{foam.row['minutes']:.0f}"}
-        else:
-            row |= {"runs": MISSING, "bubbles": "", "range of :math:`\\tau`": "", "minutes": ""}
+    for fraction in fractions:
+        row = {"liquid fraction": f"{fraction:.2f}"}
+        for one in series:
+            row[one] = MISSING
+            if (one, fraction) in foams:
+                numbers = foams[one, fraction].row
+                row[one] = f"{numbers['minutes']:.0f}" + (f" ({numbers['runs']} runs)" if numbers["runs"] > 1 else "")
         rows.append(row)
     return rows
 
