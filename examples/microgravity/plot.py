@@ -20,14 +20,16 @@ from lammps_foam.analysis import figure, sizes
 from lammps_foam.analysis.pairs import into_brick
 from lammps_foam.analysis.read import Frame, Unusable, read_frames
 from lammps_foam.analysis import contacts
+from packing import packings
 from run import FRACTIONS, SERIES
 from states import EDGES, LATE, Foam, attraction, foams_in
 
 DPI = 200
-PANELS = (("1/n", "growth exponent 1/n"), ("rattlers", "share of rattlers"),
+PANELS = (("1/n", r"1/n of $\langle R\rangle$"), ("1/n_R32", r"1/n of $R_{32}$"), ("rattlers", "share of rattlers"),
           ("z_wide", r"neighbors at $r < 1.05\,(R_i+R_j)$"), ("through_films", "share of gas through films"),
           ("width", r"width of sizes, sd / $\langle R\rangle$"),
-          ("below_0.5", r"share of bubbles below $0.5\,\langle R\rangle$"))
+          ("below_0.5", r"share of bubbles below $0.5\,\langle R\rangle$"),
+          ("rattlers_gas", "share of gas in rattlers"))
 MARKS = "os^Dv<>p"
 SHOWN = (0.20, 0.30, 0.36, 0.45)      # liquid fractions of size distributions and slices
 UNCERTAIN = 0.15                      # exponents with a larger error are not drawn
@@ -37,6 +39,9 @@ def draw(directory: Path, out: Path | None = None, full: bool = False, pdf: bool
     out = out or directory
     out.mkdir(parents=True, exist_ok=True)
     foams = foams_in(directory)
+    for key, packed in packings(directory).items():
+        if key in foams:
+            foams[key].row |= {name: packed[name] for name in ("rcp", "rcp_error")}
     fractions = sorted({fraction for _, fraction in foams} | (set(FRACTIONS) if full else set()))
     write_tables(foams, fractions, full, out)
     if not foams:
@@ -55,11 +60,13 @@ def write_tables(foams: tables.Foams, fractions: list[float], full: bool, out: P
                        ("z_wide", "contacts"), ("rattlers", "rattlers"), ("through_films", "films")):
         tables.write(tables.matrix(foams, tables.ADHESION, fractions, name), out / f"{what}-adhesion.csv")
         tables.write(tables.matrix(foams, tables.EXCHANGE, fractions, name), out / f"{what}-exchange.csv")
+    tables.write(tables.matrix(foams, ["spring", "sticky0.05"], fractions, "rcp"), out / "packing.csv")
     for series in ("spring", "sticky0.05"):
         tables.write(tables.size_table(foams, series, fractions), out / f"sizes-{series}.csv")
     tables.write(tables.crossovers(foams, list(SERIES)), out / "crossovers.csv")
     tables.write(tables.shifts(foams), out / "shifts.csv")
     tables.write(tables.checks(foams), out / "checks.csv")
+    tables.write(tables.changes(foams), out / "changes.csv")
     tables.write(tables.summary(foams), out / "summary.csv")
     (out / "findings.txt").write_text(tables.findings(foams))
     tables.write(tables.run_table(foams, list(SERIES), fractions), out / "runs.csv")
@@ -78,23 +85,27 @@ def save(fig, base: Path, pdf: bool) -> None:
 # ------------------------------------------------------------------ against the liquid fraction
 
 def draw_against_fraction(foams: tables.Foams, series: list[str], base: Path, pdf: bool) -> None:
-    fig, axes = figure.panels(2, 3, width=2.6, height=2.3)
+    fig, axes = figure.panels(2, 4, width=2.1, height=2.1)
     for number, name in enumerate(series):
         for ax, (what, _) in zip(axes, PANELS):
             x, y, error = tables.column(foams, name, what)
-            good = error < UNCERTAIN if what == "1/n" else np.ones(len(x), dtype=bool)
+            good = error < UNCERTAIN if what.startswith("1/n") else np.ones(len(x), dtype=bool)
             ax.errorbar(x[good], y[good], error[good], lw=0.8, label=name, fmt=MARKS[number] + "-", color=f"C{number}",
                         mfc="w" if number % 2 else None)
     for ax, (_, label) in zip(axes, PANELS):
         ax.set(xlabel="liquid fraction", ylabel=label)
-    for value in (1 / 3, 1 / 2):
-        axes[0].axhline(value, color="0.7", lw=0.8, zorder=0)
+    for ax in axes[:2]:
+        for value in (1 / 3, 1 / 2):
+            ax.axhline(value, color="0.7", lw=0.8, zorder=0)
     for theory, style in (("lsw", "--"), ("lemlich", ":")):
         width = sizes.theory_moments(theory, 3)[0]
-        axes[4].axhline(width, color="0.5", ls=style, lw=0.8, zorder=0)
-        axes[4].annotate(theory.upper() if theory == "lsw" else "Lemlich", (0.02, width), fontsize=6, va="bottom",
+        axes[5].axhline(width, color="0.5", ls=style, lw=0.8, zorder=0)
+        axes[5].annotate(theory.upper() if theory == "lsw" else "Lemlich", (0.02, width), fontsize=6, va="bottom",
                          xycoords=("axes fraction", "data"))
-    axes[3].legend()
+    packed = tables.column(foams, "spring", "rcp")[1]
+    for ax in axes if len(packed) else ():
+        ax.axvspan(packed.min(), packed.max(), color="0.85", zorder=0)
+    fig.legend(*axes[0].get_legend_handles_labels(), loc="outside upper center", ncols=len(series))
     save(fig, base, pdf)
 
 

@@ -35,6 +35,8 @@ def cell(foams: Foams, key: tuple[str, float], name: str) -> str:
     foam = foams[key]
     if not foam.scales:
         return f"stops at {foam.row['last_N']:.0f}"
+    if name not in foam.row:
+        return MISSING
     return short(foam.row[name], foam.row[f"{name}_error"])
 
 
@@ -47,7 +49,7 @@ def matrix(foams: Foams, series: list[str], fractions: list[float], name: str) -
 def column(foams: Foams, series: str, name: str) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Liquid fractions, values and errors of a series, where it has late states and the error is known."""
     rows = [(fraction, foam.row[name], foam.row[f"{name}_error"]) for (one, fraction), foam in sorted(foams.items())
-            if one == series and foam.scales]
+            if one == series and foam.scales and name in foam.row]
     x, y, e = np.array(rows, dtype=float).reshape(-1, 3).T
     good = np.isfinite(y) & np.isfinite(e)
     return x[good], y[good], e[good]
@@ -55,21 +57,22 @@ def column(foams: Foams, series: str, name: str) -> tuple[np.ndarray, np.ndarray
 
 # ------------------------------------------------------------------ crossovers
 
-READINGS = {"exponent": ("1/n", MIDDLE), "rattlers": ("rattlers", 0.5), "films": ("through_films", 0.5)}
+READINGS = {"exponent": ("1/n", MIDDLE), "Sauter": ("1/n_R32", MIDDLE), "rattlers": ("rattlers", 0.5),
+            "films": ("through_films", 0.5)}
 
 
 def read_off(foams: Foams, series: str, what: str) -> Crossing:
     name, level = READINGS[what]
     x, y, e = column(foams, series, name)
-    if what == "exponent":     # an exponent that is hardly known moves the crossing anywhere
+    if level == MIDDLE:     # an exponent that is hardly known moves the crossing anywhere
         known = e < NEAR
         x, y, e = x[known], y[known], e[known]
     return crossing(x, y, e, level)
 
 
-def width_of(foams: Foams, series: str) -> tuple[float, float]:
+def width_of(foams: Foams, series: str, what: str = "exponent") -> tuple[float, float]:
     """Liquid fractions over which 1/n goes through the middle half of its way, with the error; nan if it does not."""
-    x, y, e = column(foams, series, "1/n")
+    x, y, e = column(foams, series, READINGS[what][0])
     known = e < NEAR
     ends = [crossing(x[known], y[known], e[known], level) for level in QUARTERS]
     if not all(end.found for end in ends):
@@ -87,12 +90,12 @@ def shown(found: Crossing, foams: Foams, series: str) -> str:
 def crossovers(foams: Foams, series: list[str]) -> Rows:
     rows = []
     for one in series:
-        wide, error = width_of(foams, one)
-        rows.append({"series": one, "exponent": shown(read_off(foams, one, "exponent"), foams, one),
-                     "its width": short(wide, error) if np.isfinite(wide) else
-                     ("not known" if any(name == one for name, _ in foams) else MISSING),
-                     "rattlers": shown(read_off(foams, one, "rattlers"), foams, one),
-                     "films": shown(read_off(foams, one, "films"), foams, one)})
+        row = {"series": one}
+        for what in READINGS:
+            row[what] = shown(read_off(foams, one, what), foams, one)
+            if READINGS[what][1] == MIDDLE:
+                row[f"width ({what})"] = said_width(foams, one, what)
+        rows.append(row)
     return rows
 
 
@@ -180,10 +183,6 @@ def checks(foams: Foams) -> Rows:
         rows.append((f"{title}, change from the first to the last late state",
                      f"beyond two standard errors in {many} of {len(moved)} foams; "
                      f"{range_of([by for by, _ in moved])}"))
-    for other, base, what in (("slow", "spring", "a tenth of K, *spring*"),
-                              ("sticky0.05-slow", "sticky0.05", "a tenth of K, *sticky* 0.05"),
-                              ("fine", "spring", "a tenth of the tolerance, *spring*")):
-        rows.append((what, compared(foams, base, other)))
     return [{"check": check, "result": result} for check, result in rows]
 
 
@@ -194,21 +193,27 @@ def range_of(values: list[float], digits: str = ".3f") -> str:
     return low if low == high else f"{low} to {high}"
 
 
-def compared(foams: Foams, base: str, other: str) -> str:
-    """Differences of contacts, rattlers and widths at the same liquid fractions, in standard errors."""
-    names = {"z_wide": "contacts", "rattlers": "rattlers", "width": "width", "through_films": "films"}
-    both = [(foam.row, foams[base, fraction].row) for (one, fraction), foam in foams.items()
-            if one == other and foam.scales and (base, fraction) in foams and foams[base, fraction].scales
-            and foams[base, fraction].row["bubbles"] == foam.row["bubbles"]]
-    if not both:
-        return MISSING
-    said = []
-    for name, title in names.items():
-        by = [(a[name] - b[name]) for a, b in both]
-        error = [np.hypot(a[f"{name}_error"], b[f"{name}_error"]) for a, b in both]
-        worst = max(range(len(by)), key=lambda k: abs(by[k]) / error[k] if error[k] > 0 else 0.0)
-        said.append(f"{title} {'+' if by[worst] > 0 else ''}{short(by[worst], error[worst])}")
-    return f"largest differences at {len(both)} liquid fractions: " + ", ".join(said)
+CHANGES = {"slow": ("spring", "a tenth of K"), "sticky0.05-slow": ("sticky0.05", "a tenth of K"),
+           "fine": ("spring", "a tenth of the tolerance")}
+
+
+def changes(foams: Foams) -> Rows:
+    """What one more thing that is changed does to late states, at the same liquid fraction and number of bubbles."""
+    names = {"z_wide": "neighbors", "rattlers": "rattlers", "through_films": "through films", "width": "sd of sizes"}
+    rows = []
+    for (other, fraction), foam in foams.items():
+        base, what = CHANGES.get(other, ("", ""))
+        before = foams.get((base, fraction))
+        if not before or not (foam.scales and before.scales) or foam.row["bubbles"] != before.row["bubbles"]:
+            continue
+        row = {"series": base, "change": what, "bubbles": f"{foam.row['bubbles']:.0f}",
+               "liquid fraction": f"{fraction:.2f}"}
+        for name, head in names.items():
+            by = foam.row[name] - before.row[name]
+            error = float(np.hypot(foam.row[f"{name}_error"], before.row[f"{name}_error"]))
+            row[head] = f"{'+' if by > 0 else ''}{short(by, error)}" + (" *" if abs(by) > SIGMAS * error > 0 else "")
+        rows.append(row)
+    return rows or [{"series": MISSING}]
 
 
 # ------------------------------------------------------------------ conclusions
@@ -221,17 +226,18 @@ def verdict(value: float, error: float) -> str:
     return f"within two standard errors of {' and '.join(near)}" if near else "neither 1/2 nor 1/3"
 
 
-def at_end(foams: Foams, series: str, wet: bool) -> str:
-    x, y, e = column(foams, series, "1/n")
+def at_end(foams: Foams, series: str, wet: bool, name: str = "1/n") -> str:
+    x, y, e = column(foams, series, name)
     if not len(x):
         return MISSING
     k = -1 if wet else 0
     return f"{short(y[k], e[k])} at {x[k]:.2f}, {verdict(y[k], e[k])}"
 
 
-def pairs_of(foams: Foams, series: str, name: str) -> str:
+def ends_of(foams: Foams, series: str, name: str) -> str:
+    """The driest and the wettest foam."""
     x, y, e = column(foams, series, name)
-    return ", ".join(f"{short(b, c)} at {a:.2f}" for a, b, c in zip(x, y, e)) or MISSING
+    return " to ".join(f"{short(y[k], e[k])} at {x[k]:.2f}" for k in sorted({0, len(x) - 1})) if len(x) else MISSING
 
 
 def two_peaks(foams: Foams, series: str) -> str:
@@ -261,18 +267,25 @@ def unjamming(foams: Foams, series: list[str]) -> str:
 def summary(foams: Foams) -> Rows:
     """Published statements, and ours."""
     rows = [
-        ("Isert et al. [I13]_", "exponent 1/2 in dry foams", f"spring: 1/n = {at_end(foams, 'spring', False)}"),
-        ("the same", "exponent 1/3 in wet foams", f"spring: 1/n = {at_end(foams, 'spring', True)}"),
+        ("Isert et al. [I13]_", "exponent 1/2 in dry foams",
+         f"spring: 1/n = {at_end(foams, 'spring', False)}; by the Sauter radius "
+         f"{at_end(foams, 'spring', False, '1/n_R32')}"),
+        ("the same", "exponent 1/3 in wet foams",
+         f"spring: 1/n = {at_end(foams, 'spring', True)}; by the Sauter radius "
+         f"{at_end(foams, 'spring', True, '1/n_R32')}"),
         ("the same", "the laws change at a liquid fraction of about 0.30 [I13r]_",
-         f"spring, middle of the exponent: {shown(read_off(foams, 'spring', 'exponent'), foams, 'spring')}"),
+         f"spring, middle of the exponent: {shown(read_off(foams, 'spring', 'exponent'), foams, 'spring')}; by the "
+         f"Sauter radius: {shown(read_off(foams, 'spring', 'Sauter'), foams, 'spring')}"),
         ("Pasquet et al. [P23]_", "a sharp crossover at :math:`\\varphi^*`",
-         f"width of the crossover, spring: {said_width(foams)}"),
+         f"width of the crossover, spring: {said_width(foams)}; by the Sauter radius: "
+         f"{said_width(foams, 'spring', 'Sauter')}"),
         ("the same", ":math:`\\varphi^*` is significantly larger than random close packing, for weak adhesion",
+         f"random close packing of the sizes, spring: {ends_of(foams, 'spring', 'rcp')}; "
          f"half rattlers: {unjamming(foams, ADHESION)}"),
         ("Galvani et al. [G23]_", "an excess of small roaming bubbles below :math:`\\varphi^*`",
-         f"spring: {two_peaks(foams, 'spring')}; rattlers {pairs_of(foams, 'spring', 'rattlers')}"),
+         f"spring: {two_peaks(foams, 'spring')}; rattlers {ends_of(foams, 'spring', 'rattlers')}"),
         ("the same", "a single narrow distribution above :math:`\\varphi^*`",
-         f"spring: sd {pairs_of(foams, 'spring', 'width')}"),
+         f"spring: sd {ends_of(foams, 'spring', 'width')}"),
         ("Morgan & Cox [M26]_", "no adhesion, films only: unjamming at about 0.36",
          f"spring, half rattlers: {unjamming(foams, ['spring'])}"),
         ("the same", "many small bubbles, and no rattlers", f"films: {stopped(foams)}"),
@@ -280,11 +293,11 @@ def summary(foams: Foams) -> Rows:
     return [{"source": a, "published": b, "here": c} for a, b, c in rows]
 
 
-def said_width(foams: Foams) -> str:
-    wide, error = width_of(foams, "spring")
+def said_width(foams: Foams, series: str = "spring", what: str = "exponent") -> str:
+    wide, error = width_of(foams, series, what)
     if np.isfinite(wide):
-        return f"{short(wide, error)} in the liquid fraction"
-    return "not known" if any(one == "spring" for one, _ in foams) else MISSING
+        return short(wide, error)
+    return "not known" if any(one == series for one, _ in foams) else MISSING
 
 
 def findings(foams: Foams) -> str:
@@ -292,20 +305,24 @@ def findings(foams: Foams) -> str:
     if not foams:
         return f"* {MISSING}.\n"
     bubbles = sorted({foam.row["bubbles"] for foam in foams.values()})
-    middle, films, rattlers = (shown(read_off(foams, "spring", what), foams, "spring")
-                               for what in ("exponent", "films", "rattlers"))
+    where = {what: shown(read_off(foams, "spring", what), foams, "spring") for what in READINGS}
     halves = ", ".join(f"*{one}* {shown(read_off(foams, one, 'films'), foams, one)}"
                        for one in EXCHANGE if one != "films")
     lines = [
         f"These numbers are of runs that begin with {' and '.join(f'{n:.0f}' for n in bubbles)} bubbles.",
-        f"**Exponent,** *spring*. 1/n is {at_end(foams, 'spring', False)}. It is {at_end(foams, 'spring', True)}.",
-        f"**Crossover,** *spring*. Middle of the exponent's way: {middle}. Its width: {said_width(foams)}. Half of the "
-        f"gas through films: {films}. Half of the bubbles rattlers: {rattlers}.",
-        *(f"**Adhesion,** *{row['series']}*. Shift of the exponent's middle: {row['exponent']}. Of half rattlers: "
-          f"{row['rattlers']}. Of half of the gas through films: {row['films']}." for row in shifts(foams)),
-        *(f"**Rattlers,** *{one}*. Their share: {pairs_of(foams, one, 'rattlers')}."
+        *(f"**Exponent** of {of}, *spring*. 1/n is {at_end(foams, 'spring', False, name)}. It is "
+          f"{at_end(foams, 'spring', True, name)}." for of, name in (("the mean radius", "1/n"),
+                                                                    ("the Sauter radius", "1/n_R32"))),
+        f"**Crossover,** *spring*. Middle of the exponent's way: {where['exponent']}, width {said_width(foams)}. By "
+        f"the Sauter radius: {where['Sauter']}, width {said_width(foams, 'spring', 'Sauter')}. Half of the gas through "
+        f"films: {where['films']}. Half of the bubbles rattlers: {where['rattlers']}.",
+        *(f"**Adhesion,** *{row['series']}*. Shift of the exponent's middle: {row['exponent']}. By the Sauter radius: "
+          f"{row['Sauter']}. Of half rattlers: {row['rattlers']}. Of half of the gas through films: {row['films']}."
+          for row in shifts(foams)),
+        *(f"**Rattlers,** *{one}*. Their share: {ends_of(foams, one, 'rattlers')}."
           for one in ("spring", "sticky0.05")),
         *(f"**Sizes,** *{one}*. {two_peaks(foams, one).capitalize()}." for one in ("spring", "sticky0.05")),
+        f"**Random close packing** of these sizes, *spring*: {ends_of(foams, 'spring', 'rcp')}.",
         f"**Exchange.** Half of the gas through films: {halves}.",
         f"**Films alone.** {stopped(foams).capitalize()}.",
     ]
