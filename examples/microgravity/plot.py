@@ -26,9 +26,9 @@ from states import EDGES, LATE, Foam, attraction, foams_in
 
 DPI = 200
 PANELS = (("1/n", r"1/n of $\langle R\rangle$"), ("1/n_R32", r"1/n of $R_{32}$"), ("rattlers", "share of rattlers"),
-          ("z_wide", r"neighbors at $r < 1.05\,(R_i+R_j)$"), ("through_films", "share of gas through films"),
+          ("z_wide", "neighbors"), ("through_films", "share of gas through films"),
           ("width", r"width of sizes, sd / $\langle R\rangle$"),
-          ("below_0.5", r"share of bubbles below $0.5\,\langle R\rangle$"),
+          ("below_0.5", r"bubbles below $0.5\,\langle R\rangle$"),
           ("rattlers_gas", "share of gas in rattlers"))
 MARKS = "os^Dv<>p"
 SHOWN = (0.20, 0.30, 0.36, 0.45)      # liquid fractions of size distributions and slices
@@ -86,6 +86,8 @@ def save(fig, base: Path, pdf: bool) -> None:
 
 def draw_against_fraction(foams: tables.Foams, series: list[str], base: Path, pdf: bool) -> None:
     fig, axes = figure.panels(2, 4, width=2.1, height=2.1)
+    shown = [fraction for _, fraction in foams]
+    limits = (min(shown) - 0.02, max(shown) + 0.02)
     for number, name in enumerate(series):
         for ax, (what, _) in zip(axes, PANELS):
             x, y, error = tables.column(foams, name, what)
@@ -93,7 +95,7 @@ def draw_against_fraction(foams: tables.Foams, series: list[str], base: Path, pd
             ax.errorbar(x[good], y[good], error[good], lw=0.8, label=name, fmt=MARKS[number] + "-", color=f"C{number}",
                         mfc="w" if number % 2 else None)
     for ax, (_, label) in zip(axes, PANELS):
-        ax.set(xlabel="liquid fraction", ylabel=label)
+        ax.set(xlabel="liquid fraction", ylabel=label, xlim=limits)
     for ax in axes[:2]:
         for value in (1 / 3, 1 / 2):
             ax.axhline(value, color="0.7", lw=0.8, zorder=0)

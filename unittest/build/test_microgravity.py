@@ -1,5 +1,5 @@
-"""Tables of examples/microgravity: crossovers whose place is known, forces and overlaps of two bubbles, one small run,
-and no run at all."""
+"""Tables of examples/microgravity: crossovers and jamming points that are known, forces and overlaps of two bubbles, a
+small run with a packing of its sizes, and no run at all."""
 
 import csv
 import os
@@ -17,7 +17,7 @@ LMP = os.environ["FOAM_LMP_WHEEL"]
 @pytest.fixture
 def modules(monkeypatch):
     """crossover, states and tables. Other examples have modules of the same names: those are not to be met."""
-    names = ("run", "crossover", "states", "tables")
+    names = ("run", "crossover", "states", "tables", "packing")
     monkeypatch.syspath_prepend(str(MICROGRAVITY))
     for name in names:
         monkeypatch.delitem(sys.modules, name, raising=False)
@@ -123,6 +123,16 @@ def test_a_pair_that_is_pushed_apart_is_not_at_rest(modules):
 
 # ------------------------------------------------------------------ runs
 
+def test_jamming_where_the_pressure_is_gone(modules, tmp_path):
+    import packing
+    phi = np.linspace(0.70, 0.63, 15)
+    pressure = np.where(phi > 0.652, 0.07 * (phi - 0.652), 0.0)    # a straight line, as law spring has it near jamming
+    np.savetxt(tmp_path / "jam.txt", np.column_stack([phi, pressure, np.zeros(15)]), header="three columns")
+    assert packing.jamming(tmp_path) == pytest.approx(0.652, abs=1e-9)
+    np.savetxt(tmp_path / "jam.txt", np.column_stack([phi, np.zeros(15), np.zeros(15)]))
+    assert np.isnan(packing.jamming(tmp_path))
+
+
 def test_no_run(tmp_path):
     done = python("plot.py", tmp_path, "--full", "--out", tmp_path / "out")
     assert done.returncode == 0, done.stderr
@@ -156,6 +166,10 @@ def test_a_small_run_and_one_that_stops(tmp_path):
     said = run_of(tmp_path, "films-0.45-1", *words, "-var", "liquidfraction", "0.45", "-var", "kappa", "0")
     assert "Fix halt condition for fix-id idle met" in said
 
+    (tmp_path / "spring-0.36-1" / "complete").write_text("-var N 300\n")
+    done = python("packing.py", tmp_path, "--lmp", LMP)
+    assert done.returncode == 0 and done.stdout.split() == [f"spring-0.36-{seed}" for seed in (1, 2, 3)], done.stderr
+
     done = python("plot.py", tmp_path, "--no-pdf", "--out", tmp_path / "out")
     assert done.returncode == 0, done.stderr
     for name in ("adhesion", "exchange", "sizes", "approach", "slices"):
@@ -163,5 +177,7 @@ def test_a_small_run_and_one_that_stops(tmp_path):
     numbers = {row["series"]: row for row in table(tmp_path / "out" / "microgravity.csv")}
     assert 0 < float(numbers["spring"]["1/n"]) and numbers["films"].get("1/n") == ""
     assert float(numbers["spring"]["gas_change"]) < 1.0e-10       # rounding; the table has 12 digits
+    # 70 spheres of several sizes pack to a gas fraction of 0.60 to 0.70 (monodisperse: 0.64; doc/model.rst: 0.66, 0.67)
+    assert 0.30 < float(numbers["spring"]["rcp"]) < 0.40
     films = {row["liquid fraction"]: row["films"] for row in table(tmp_path / "out" / "exponents-exchange.csv")}
     assert films["0.36"] == "not run yet" and films["0.45"].startswith("stops at ")
