@@ -6,7 +6,8 @@ The late states are those with at most a quarter of the bubbles (LATE). Errors a
 * contacts, rattlers, share of gas through films: blocks of space of each snapshot (jackknife);
 * sizes: bubbles of each snapshot, drawn with replacement;
 * means over the snapshots of one run: snapshots share bubbles, and the error allows for it
-  (lammps_foam.analysis.sizes.error_of_one_run). Of several seeds: their scatter.
+  (lammps_foam.analysis.sizes.error_of_one_run). Of two or three seeds: the
+  larger of this and their scatter. Of more: their scatter.
 """
 from __future__ import annotations
 
@@ -138,10 +139,11 @@ def states_of(path: Path, series: str) -> list[State]:
 # ------------------------------------------------------------------ runs of one series and liquid fraction
 
 def over_states(late: list[list[State]], name: str) -> sizes.Average:
-    """Mean of a quantity over the late states, with its error."""
-    values = [[getattr(state, name) for state in run] for run in late]
-    errors = [getattr(state, f"{name}_error") for state in late[0]]
-    return sizes.average(values, errors, [state.N for state in late[0]])
+    """Mean of a quantity over the late states, with its error: that of one run, or as growth.over_runs of several."""
+    each = [sizes.average([[getattr(state, name) for state in run]], [getattr(state, f"{name}_error") for state in run],
+                          [state.N for state in run]) for run in late]
+    mean, error = growth.over_runs(np.array([one.mean for one in each]), np.array([one.error for one in each]))
+    return sizes.Average(mean, error, f"{len(late)} runs")
 
 
 def exponents(series: list, start: float, end: float) -> dict[str, float]:

@@ -7,7 +7,7 @@ from __future__ import annotations
 import numpy as np
 
 from crossover import MIDDLE, QUARTERS, Crossing, crossing, peaks
-from lammps_foam.analysis import table
+from lammps_foam.analysis import sizes, table
 from states import EDGES, Foam
 
 Foams = dict[tuple[str, float], Foam]
@@ -176,6 +176,13 @@ def checks(foams: Foams) -> Rows:
             ("the same, foams with more rattlers", range_of(loose)),
             ("overlaps: liquid fraction with overlaps counted once, less that of the model",
              range_of([f.row["liquid"] - f.fraction for f in scaling.values()], ".4f"))]
+    x, width, error = column(foams, "spring", "width")
+    if len(x):
+        lsw = sizes.theory_moments("lsw", 3)[0]
+        reached = abs(width[-1] - lsw) <= SIGMAS * error[-1]
+        rows.append((f"width of sizes, *spring* at {x[-1]:.2f}, against {lsw:.3f} of LSW",
+                     f"{short(width[-1], error[-1])}: "
+                     + ("equal within the error" if reached else "the scaling state of free bubbles is not reached")))
     for title, index, kind in (("width of sizes", 0, "sizes"), ("share of rattlers", 2, "means"),
                                ("share of gas through films", 4, "means")):
         moved = [drift(foam, index, kind) for foam in scaling.values()]
