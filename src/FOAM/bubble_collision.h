@@ -70,16 +70,16 @@ struct Meeting {
 
 constexpr double CLOSED_IN_A_STEP = 0.2;
 
-// Does the gap become a film, and how thick is that?  h_kept: h0 of this contact, if it has one.  No root is taken
-// where the gap is wide.
+// Does the gap become a film, and how thick is that?  h_kept: h0 of this contact, if it has one; it is lost where the gap
+// is wider.  No root is taken where the gap is wide.
 
-FOAM_FUNCTION void close(const Collision &c, const Gap &gap, double width, double u, double h_kept,
-                         Meeting &m)
+FOAM_ALWAYS_INLINE void close(const Collision &c, const Gap &gap, double width, double u,
+                              double h_kept, Meeting &m)
 {
   m.h0 = c.hmin;
   if (c.stop == Stop::GIVEN) {
     m.h0 = c.h0;
-  } else if (c.stop == Stop::CONTACT && h_kept > 0.0) {
+  } else if (c.stop == Stop::CONTACT && h_kept > 0.0 && width < h_kept) {
     m.h0 = h_kept;
   } else {
     const double square =
@@ -109,8 +109,8 @@ FOAM_FUNCTION double film_coefficient(const Collision &c, const Gap &gap, double
                       c.integral.first ? c.integral(h, a) : film_fit(h, a), gap);
 }
 
-FOAM_FUNCTION Meeting meet(const Collision &c, const Gap &gap, double width, double u,
-                           double h_kept)
+FOAM_ALWAYS_INLINE Meeting meet(const Collision &c, const Gap &gap, double width, double u,
+                                double h_kept)
 {
   Meeting m;
   close(c, gap, width, u, h_kept, m);
@@ -282,42 +282,81 @@ template <class B, bool TALLY> struct Encounter {
   }
 };
 
-// h0 of a contact in its record, from one evaluation to the next.  An evaluation of the same state finds the same.  If
-// a bubble has more contacts than its record has room for, it takes no forces: those bubbles are done again.
+// h0 of a contact in its record, from one evaluation to the next.  Records are changed in place, and an evaluation of the
+// same state changes nothing.  Contacts come in the order in which they are met, so that the next one is mostly the next
+// in the record.  If a bubble has more contacts than its record has room for, it takes no forces, and is done again.
 
 struct Films {
-  ContactRecords before, now;
+  ContactRecords records;
   bool kept = false;       // h0 is that of the record
-  bool renewed = false;    // and the record is made anew
-  int again = 0;           // > 0: for bubbles alone that had more contacts than this
-  FOAM_FUNCTION bool done(int i) const { return again > 0 && now.count(i) <= again; }
-  FOAM_FUNCTION bool fit(int i) const { return !renewed || now.count(i) <= now.slots; }
-  FOAM_FUNCTION bool has_room(int i) const { return !renewed || now.count(i) < now.slots; }
-  FOAM_FUNCTION void begin(int i, LAMMPS_NS::tagint id) const
+  bool renewed = false;    // and the record follows
+  bool again = false;      // for bubbles alone whose records were too small
+
+  // One evaluation of a bubble.  The first n of its record are those met so far, the others may have come apart
+
+  struct Met {
+    int n = 0, count = 0, more = 0;
+    double widest = 0.0;    // h0 of any
+    FOAM_FUNCTION int needed() const { return count + more; }
+  };
+
+  FOAM_FUNCTION bool done(int i) const { return again && records.id(i) != 0.0; }
+  FOAM_FUNCTION Met begin(int i) const
+  {
+    Met met;
+    if (!kept) return met;
+    met.count = static_cast<int>(records.count(i));
+    for (int m = 0; m < met.count; m++)
+      if (records.value(i, m, 0) > met.widest) met.widest = records.value(i, m, 0);
+    return met;
+  }
+  FOAM_FUNCTION double of(int i, LAMMPS_NS::tagint partner, const Met &met) const
+  {
+    const double wanted = static_cast<double>(partner);
+    for (int m = met.n; m < met.count; m++) {
+      if (records.partner(i, m) != wanted) continue;
+      const double h0 = records.value(i, m, 0);
+      if (renewed && m > met.n) {
+        move(i, met.n, m);
+        put(i, met.n, wanted, h0);
+      }
+      return h0;
+    }
+    return 0.0;
+  }
+  FOAM_FUNCTION void keep(int i, LAMMPS_NS::tagint partner, double h0, double h_kept,
+                          Met &met) const
   {
     if (!renewed) return;
-    now.id(i) = static_cast<double>(id);
-    now.count(i) = 0.0;
+    if (h_kept == h0) {
+      met.n++;
+    } else if (h_kept > 0.0) {
+      put(i, met.n++, static_cast<double>(partner), h0);
+    } else if (met.count < records.slots) {
+      move(i, met.n, met.count++);
+      put(i, met.n++, static_cast<double>(partner), h0);
+    } else {
+      met.more++;
+    }
   }
-  FOAM_FUNCTION double widest(int i) const    // no contact has more
+  FOAM_FUNCTION bool end(int i, LAMMPS_NS::tagint id, const Met &met) const    // was there room?
   {
-    double h = 0.0;
-    if (!kept) return h;
-    for (int m = 0; m < before.count(i); m++)
-      if (before.value(i, m, 0) > h) h = before.value(i, m, 0);
-    return h;
+    if (!renewed) return true;
+    const double count = met.more ? met.count : met.n, mark = met.more ? 0.0 : id;
+    if (records.count(i) != count) records.count(i) = count;
+    if (records.id(i) != mark) records.id(i) = mark;
+    return met.more == 0;
   }
-  FOAM_FUNCTION double of(int i, LAMMPS_NS::tagint partner) const
+
+ private:
+  FOAM_FUNCTION void put(int i, int m, double partner, double h0) const
   {
-    if (!kept) return 0.0;
-    const int m = before.find(i, partner);
-    return m < 0 ? 0.0 : before.value(i, m, 0);
+    records.partner(i, m) = partner;
+    records.value(i, m, 0) = h0;
   }
-  FOAM_FUNCTION void keep(int i, LAMMPS_NS::tagint partner, double h0) const
+  FOAM_FUNCTION void move(int i, int from, int to) const
   {
-    if (!renewed) return;
-    const int m = now.add(i, partner);
-    if (m >= 0) now.value(i, m, 0) = h0;
+    if (from != to) put(i, to, records.partner(i, from), records.value(i, from, 0));
   }
 };
 
@@ -339,19 +378,18 @@ template <class B, class List, bool TALLY> struct Collide {
     const auto row = list.row(n);
     const int i = row.i;
     if (films.done(i)) return;
-    films.begin(i, b.tag(i));
     if constexpr (TALLY)
       if (encounter.looked) encounter.looks.clear(i);
-    double total[4] = {0.0, 0.0, 0.0, 0.0};    // force, and friction
-    const double widest = films.widest(i);
-    Totals mine;
-    row.for_each([&](int j, auto) { pass(i, j, widest, total, mine); });
+    const Self self(b, i);
+    Sum mine;
+    mine.met = films.begin(i);
+    row.for_each([&](int j, auto) FOAM_INLINE_LAMBDA { pass(self, j, mine); });
 
-    if (films.renewed) all.most.raise(films.now.count(i));
-    if (!films.fit(i)) return;
+    all.most.raise(mine.met.needed());
+    if (!films.end(i, b.tag(i), mine.met)) return;
     if (moves)
-      for (int k = 0; k < 3; k++) b.f(i, k) += total[k];
-    all.friction.raise(total[3] / volume(b.radius(i)));
+      for (int k = 0; k < 3; k++) b.f(i, k) += mine.force[k];
+    all.friction.raise(mine.coefficient / volume(self.R));
     all.join(mine);
     if constexpr (TALLY) {
       const double v[6] = {mine.xx, mine.yy, mine.zz, mine.xy, mine.xz, mine.yz};
@@ -360,35 +398,56 @@ template <class B, class List, bool TALLY> struct Collide {
     }
   }
 
-  FOAM_FUNCTION void pass(int i, int j, double widest, double *total, Totals &mine) const
+ private:
+  struct Self {    // the bubble, read once for all its partners
+    int i;
+    double R, x[3], v[3];
+    FOAM_FUNCTION Self(const B &b, int n) : i(n), R(b.radius(n))
+    {
+      for (int k = 0; k < 3; k++) {
+        x[k] = b.x(n, k);
+        v[k] = b.v(n, k);
+      }
+    }
+  };
+  struct Sum : Totals {
+    double force[3] = {0.0, 0.0, 0.0}, coefficient = 0.0;    // the latter of friction
+    Films::Met met;
+  };
+
+  FOAM_ALWAYS_INLINE void pass(const Self &self, int j, Sum &mine) const
   {
-    const Collision &model = encounter.model;
-    const double Ri = b.radius(i), Rj = b.radius(j), sum = Ri + Rj;
     double r[3], square = 0.0;
     for (int k = 0; k < 3; k++) {
-      r[k] = b.x(i, k) - b.x(j, k);
+      r[k] = self.x[k] - b.x(j, k);
       square += r[k] * r[k];
     }
-    const double most = sum + model.longest(sum);
-    if (!(square < most * most)) return;
+    const double Rj = b.radius(j), sum = self.R + Rj;
+    const double most = sum + encounter.model.longest(sum);
+    if (square < most * most) near(self, j, Gap::to_bubble(self.R, Rj), r, std::sqrt(square), mine);
+  }
 
-    const Gap gap = Gap::to_bubble(Ri, Rj);
-    const double distance = std::sqrt(square), width = distance - sum;
-    if (!(width < model.range(gap))) return;
+  FOAM_ALWAYS_INLINE void near(const Self &self, int j, const Gap &gap, const double *r,
+                               double distance, Sum &mine) const
+  {
+    const double width = distance - (gap.Ri + gap.Rj);
+    if (!(width < encounter.model.range(gap))) return;
+    const int i = self.i;
     double u[3], unit[3], force[3];
+    const double inverse = 1.0 / distance;
     for (int k = 0; k < 3; k++) {
-      unit[k] = r[k] / distance;
-      u[k] = b.v(i, k) - b.v(j, k);
+      unit[k] = r[k] * inverse;
+      u[k] = self.v[k] - b.v(j, k);
     }
     if (!(distance > 0.0)) {    // coincident: apart along x
       unit[0] = b.tag(i) > b.tag(j) ? 1.0 : -1.0;
       unit[1] = unit[2] = 0.0;
     }
-    const double h_kept = width < widest ? films.of(i, b.tag(j)) : 0.0;
+    const double h_kept = width < mine.met.widest ? films.of(i, b.tag(j), mine.met) : 0.0;
     const Meeting m = encounter(i, gap, width, unit, u, h_kept, force, mine);
-    if (m.closed) films.keep(i, b.tag(j), m.h0);
-    for (int k = 0; k < 3; k++) total[k] += force[k];
-    total[3] += m.friction;
+    if (m.closed) films.keep(i, b.tag(j), m.h0, h_kept, mine.met);
+    for (int k = 0; k < 3; k++) mine.force[k] += force[k];
+    mine.coefficient += m.friction;
     if constexpr (TALLY) {
       mine.xx += 0.5 * r[0] * force[0];
       mine.yy += 0.5 * r[1] * force[1];
@@ -424,23 +483,25 @@ template <class B> struct MeetPlane {
   FOAM_FUNCTION void operator()(int i, WallTotals &all) const
   {
     if (films.done(i)) return;
-    films.begin(i, b.tag(i));
     double height = 0.0;
     for (int k = 0; k < 3; k++) height += (b.x(i, k) - place[k]) * normal[k];
-    touch(i, height, normal, 0, all);
+    Films::Met met = films.begin(i);
+    touch(i, height, normal, 0, met, all);
+    films.end(i, b.tag(i), met);
   }
 
   // distance of the centre from the wall, unit vector to it
 
   FOAM_FUNCTION void touch(int i, double distance, const double *unit, LAMMPS_NS::tagint id,
-                           WallTotals &all) const
+                           Films::Met &met, WallTotals &all) const
   {
     const Gap gap = Gap::to_wall(b.radius(i));
     const double width = distance - gap.Ri, u[3] = {b.v(i, 0), b.v(i, 1), b.v(i, 2)};
     if (!(width < encounter.model.range(gap))) return;
     double force[3];
-    const Meeting m = encounter(i, gap, width, unit, u, films.of(i, id), force, all);
-    if (m.closed && films.has_room(i)) films.keep(i, id, m.h0);    // regions may have more surfaces
+    const double h_kept = width < met.widest ? films.of(i, id, met) : 0.0;
+    const Meeting m = encounter(i, gap, width, unit, u, h_kept, force, all);
+    if (m.closed) films.keep(i, id, m.h0, h_kept, met);
     all.friction.raise(m.friction / volume(gap.Ri));
     if (!moves) return;
     for (int k = 0; k < 3; k++) b.f(i, k) += force[k];

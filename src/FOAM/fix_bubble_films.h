@@ -28,26 +28,21 @@ class FixBubbleFilms : public FixFoamRecords {
   FixBubbleFilms(class LAMMPS *, int, char **);
   int setmask() override;
 
-  // one evaluation of forces: run(films) fills records, and tells how many contacts a bubble has at most
+  // one evaluation of forces: run(films) brings records up to date, and tells how many contacts a bubble has at most
 
   template <class Space, class Run> void evaluate(Space &space, int nmax, Run &&run)
   {
-    history.use(nmax);
-    int again = 0;
-    while (true) {
-      const int slots = history.slots();
-      const int most = run(Bubble::Films{history.records(space, history.committed),
-                                         history.records(space, history.trial), true, true, again});
-      if (most <= slots) break;
+    history.committed.use(nmax);
+    for (bool again = false;; again = true) {
+      const int most = run(films(space, true, again));
+      if (most <= history.slots()) return;
       make_room(most);
-      again = slots;
     }
-    history.commit();
   }
 
   template <class Space> Bubble::Films now(Space &space)    // to be read
   {
-    return {history.records(space, history.committed), {}, true, false};
+    return films(space, false, false);
   }
 
  protected:
@@ -55,6 +50,12 @@ class FixBubbleFilms : public FixFoamRecords {
   };    // which keeps records at the end of its own constructor: nothing fails afterwards
   FixBubbleFilms(class LAMMPS *, int, char **, Derived);
   void look_at(int) override {}
+
+ private:
+  template <class Space> Bubble::Films films(Space &space, bool renewed, bool again)
+  {
+    return {history.records(space, history.committed), true, renewed, again};
+  }
 };
 
 }    // namespace LAMMPS_NS

@@ -142,16 +142,18 @@ template <class B> struct MeetRegion {
   {
     const auto &b = wall.b;
     if (wall.films.done(i)) return;
-    wall.films.begin(i, b.tag(i));
     const double R = b.radius(i), reach = R + wall.encounter.model.range(Bubble::Gap::to_wall(R));
-    if (!region->match(b.x(i, 0), b.x(i, 1), b.x(i, 2))) return;
-    const int n = region->surface(b.x(i, 0), b.x(i, 1), b.x(i, 2), reach);
+    const bool within = region->match(b.x(i, 0), b.x(i, 1), b.x(i, 2));
+    const int n = within ? region->surface(b.x(i, 0), b.x(i, 1), b.x(i, 2), reach) : 0;
+    Bubble::Films::Met met = wall.films.begin(i);
     for (int m = 0; m < n; m++) {
       const auto &contact = region->contact[m];
       const double unit[3] = {contact.delx / contact.r, contact.dely / contact.r,
                               contact.delz / contact.r};
-      wall.touch(i, contact.r, unit, contact.iwall, all);
+      wall.touch(i, contact.r, unit, contact.iwall, met, all);
     }
+    met.more = 0;    // where there are more than a record has room for, h0 of some is not kept
+    wall.films.end(i, b.tag(i), met);
   }
 };
 
