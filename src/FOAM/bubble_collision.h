@@ -41,17 +41,24 @@ struct Collision {
   double h0 = 0.0, hmin = 0.0;
   bool film = true;           // the elastic force begins at h0, else where surfaces meet
   bool lubrication = true;    // where the gap is wider than h0
-  double reach = 1.0;         // of it, in R
+  double reach = -1.0;        // of it, in R, or what widest_gap() has
   bool slides = false;        // force along the surface
 
+  // Where h0 is given, and the liquid in a gap does nothing, gaps are looked at only so that steps see a film that may
+  // close.  A chosen step moves bubbles by 0.1 R at most, two of them by 0.2 R.
+
+  FOAM_FUNCTION double widest_gap() const    // in R
+  {
+    const double end = reach >= 0.0 ? reach : lubrication || stop != Stop::GIVEN ? 1.0 : 0.3;
+    return slides && end < 1.0 ? 1.0 : end;    // sliding ends at R
+  }
   FOAM_FUNCTION double range(const Gap &gap) const    // no force beyond this gap
   {
     return longest(2.0 * gap.mean);
   }
   FOAM_FUNCTION double longest(double sum) const    // for all pairs with this sum of radii
   {
-    const double far = slides && reach < 1.0 ? 1.0 : reach;    // sliding ends at R
-    const double end = 0.5 * far * sum, film = h0 > hmin ? h0 : hmin;
+    const double end = 0.5 * widest_gap() * sum, film = h0 > hmin ? h0 : hmin;
     return end > film ? end : film;
   }
 };
@@ -121,7 +128,7 @@ FOAM_ALWAYS_INLINE Meeting meet(const Collision &c, const Gap &gap, double width
       deform(c, gap, overlap, m);
     }
     if (c.viscous != Viscous::NONE) m.viscous = film_coefficient(c, gap, m.overlap, m.h0);
-  } else if (c.lubrication && width < c.reach * gap.mean) {
+  } else if (c.lubrication && width < (c.reach < 0.0 ? 1.0 : c.reach) * gap.mean) {
     m.lubrication = lubrication(c.mu, width, gap);
   }
   if (c.slides) m.sliding = sliding(c.mu, width > c.hmin ? width : c.hmin, gap.mean);

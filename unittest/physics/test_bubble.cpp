@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <functional>
+#include <vector>
 
 using namespace Bubble;
 
@@ -405,6 +406,87 @@ TEST(BubbleMeeting, ForcesBothTheSame)
       EXPECT_GE(force, 0.0);    // push apart, and take energy
     }
   }
+}
+
+// ---------------------------------------------------------------------- what a contact remembers
+
+namespace {
+
+// one bubble and its record, with room for some contacts; evaluations are lists of partners, in the order of a list
+
+struct Memory {
+  explicit Memory(int room) : slots(room), numbers(2 + 2 * room, 0.0) {}
+  int slots;
+  std::vector<double> numbers;
+  Foam::ContactRecords records() { return {numbers.data(), 1, slots, 1}; }
+
+  struct Contact {
+    int partner;
+    double fresh;    // h0, if the contact is new
+    bool closed = true;
+  };
+  struct Found {
+    std::vector<double> kept;    // h0 from before, of each partner
+    bool room;
+    int needed;
+  };
+  Found evaluate(const std::vector<Contact> &contacts)
+  {
+    const Films films{records(), true, true};
+    Films::Met met = films.begin(0);
+    Found found;
+    for (const Contact &c : contacts) {
+      const double kept = films.of(0, c.partner, met);
+      found.kept.push_back(kept);
+      if (c.closed) films.keep(0, c.partner, kept > 0.0 ? kept : c.fresh, kept, met);
+    }
+    found.needed = met.needed();
+    found.room = films.end(0, 7, met);
+    return found;
+  }
+  void widen(int room)
+  {
+    slots = room;
+    numbers.resize(2 + 2 * room, 0.0);
+  }
+};
+
+}    // namespace
+
+TEST(BubbleFilms, AreKeptWhateverTheOrder)
+{
+  Memory memory(4);
+  EXPECT_EQ(memory.evaluate({{1, 0.1}, {2, 0.2}, {3, 0.3}}).kept, (std::vector<double>{0, 0, 0}));
+  const std::vector<double> before = memory.numbers;
+  EXPECT_EQ(memory.evaluate({{1, 9}, {2, 9}, {3, 9}}).kept, (std::vector<double>{0.1, 0.2, 0.3}));
+  EXPECT_EQ(memory.numbers, before);    // the same state: nothing changes
+  EXPECT_EQ(memory.evaluate({{3, 9}, {1, 9}, {4, 0.4}, {2, 9}}).kept,
+            (std::vector<double>{0.3, 0.1, 0, 0.2}));
+  EXPECT_EQ(memory.evaluate({{2, 9}, {3, 9}, {4, 9}, {1, 9}}).kept,
+            (std::vector<double>{0.2, 0.3, 0.4, 0.1}));
+}
+
+TEST(BubbleFilms, EndWhereContactsOpen)    // or where the partner is not met at all
+{
+  Memory memory(4);
+  memory.evaluate({{1, 0.1}, {2, 0.2}, {3, 0.3}});
+  EXPECT_EQ(memory.evaluate({{1, 9}, {2, 9, false}}).kept, (std::vector<double>{0.1, 0.2}));
+  EXPECT_EQ(memory.evaluate({{1, 9}, {2, 0.5}, {3, 0.6}}).kept, (std::vector<double>{0.1, 0, 0}));
+}
+
+TEST(BubbleFilms, AreDoneAgainWhereThereIsNoRoom)
+{
+  Memory memory(2);
+  memory.evaluate({{1, 0.1}, {2, 0.2}});
+  const auto found = memory.evaluate({{3, 0.3}, {2, 9}, {4, 0.4}, {1, 9}});
+  EXPECT_FALSE(found.room);
+  EXPECT_EQ(found.needed, 4);
+  EXPECT_EQ(memory.records().id(0), 0.0);    // to be done again
+  memory.widen(found.needed);
+  EXPECT_EQ(memory.evaluate({{3, 0.3}, {2, 9}, {4, 0.4}, {1, 9}}).kept,
+            (std::vector<double>{0, 0.2, 0, 0.1}));
+  EXPECT_EQ(memory.records().id(0), 7.0);
+  EXPECT_EQ(memory.records().count(0), 4.0);
 }
 
 // ---------------------------------------------------------------------- in the liquid

@@ -2,6 +2,8 @@
 written down here once more, in all the ways in which a scene can be put into LAMMPS.  How bubbles move:
 test_bubble_motion.py.  The formulae one by one: physics/test_bubble.cpp."""
 
+import re
+
 import numpy as np
 import pytest
 
@@ -249,6 +251,17 @@ def test_sliding_is_off_at_its_own_distance(lmp, reach):
     result = lmp(text(pair=f"reach {reach}", wall="plane 0 0 0 0 0 1"), data([0, 0, 1.7 * R6], R6, [[0.1, 0, 0]]))
     expected = wall_forces(R6, 0.7 * R6, 0.0, 0.1)["tangential"]
     assert result.dump("dump")[0]["fx"][0] == pytest.approx(expected, rel=1e-9)
+
+
+@pytest.mark.parametrize("model, reach", [
+    ("", 1), ("lubrication no", 1), ("lubrication no h0 1e-5", 0.3), ("h0 1e-5", 1), ("reach 0.1", 0.1),
+    ("lubrication no h0 1e-5 tangential all", 1), ("lubrication no h0 1e-5 reach 0.1", 0.1),
+    ("lubrication no h0 3e-4", 0.5)])
+def test_lists_end_where_nothing_acts(lmp, model, reach):
+    """Terms that are off cost no neighbors."""
+    result = lmp(text(pair=model), data([[0, 0, 0], [0, 0, 4 * R6]], R6))
+    found = re.search("list distance cutoff = (.*)", result.screen)
+    assert float(found[1]) == pytest.approx((2 + reach) * R6 + 1e-4, rel=1e-6)    # it has 8 digits
 
 
 # ---- bad input ----------------------------------------------------------------------------------
