@@ -11,8 +11,8 @@
 #define LMP_BUBBLE_COLLISION_H
 
 #include "bubble_film.h"
+#include "bubble_memory.h"
 #include "foam_bubbles.h"
-#include "foam_history.h"
 
 #include <cmath>
 #include <type_traits>
@@ -21,8 +21,6 @@
 // over pairs and walls.  Formulae: bubble_physics.h.
 
 namespace Bubble {
-
-using Foam::ContactRecords;
 
 enum class Elastic { NONE, SPRING, QUADRATIC };
 enum class Viscous { NONE, PUBLISHED, DERIVED };
@@ -286,84 +284,6 @@ template <class B, bool TALLY> struct Encounter {
     looks.column[DELTA][i] = s.Delta;
     looks.column[RA][i] = s.Ra;
     looks.column[H0][i] = m.h0;
-  }
-};
-
-// h0 of a contact in its record, from one evaluation to the next.  Records are changed in place, and an evaluation of the
-// same state changes nothing.  Contacts come in the order in which they are met, so that the next one is mostly the next
-// in the record.  If a bubble has more contacts than its record has room for, it takes no forces, and is done again.
-
-struct Films {
-  ContactRecords records;
-  bool kept = false;       // h0 is that of the record
-  bool renewed = false;    // and the record follows
-  bool again = false;      // for bubbles alone whose records were too small
-
-  // One evaluation of a bubble.  The first n of its record are those met so far, the others may have come apart
-
-  struct Met {
-    int n = 0, count = 0, more = 0;
-    double widest = 0.0;    // h0 of any
-    FOAM_FUNCTION int needed() const { return count + more; }
-  };
-
-  FOAM_FUNCTION bool done(int i) const { return again && records.id(i) != 0.0; }
-  FOAM_FUNCTION Met begin(int i) const
-  {
-    Met met;
-    if (!kept) return met;
-    met.count = static_cast<int>(records.count(i));
-    for (int m = 0; m < met.count; m++)
-      if (records.value(i, m, 0) > met.widest) met.widest = records.value(i, m, 0);
-    return met;
-  }
-  FOAM_FUNCTION double of(int i, LAMMPS_NS::tagint partner, const Met &met) const
-  {
-    const double wanted = static_cast<double>(partner);
-    for (int m = met.n; m < met.count; m++) {
-      if (records.partner(i, m) != wanted) continue;
-      const double h0 = records.value(i, m, 0);
-      if (renewed && m > met.n) {
-        move(i, met.n, m);
-        put(i, met.n, wanted, h0);
-      }
-      return h0;
-    }
-    return 0.0;
-  }
-  FOAM_FUNCTION void keep(int i, LAMMPS_NS::tagint partner, double h0, double h_kept,
-                          Met &met) const
-  {
-    if (!renewed) return;
-    if (h_kept == h0) {
-      met.n++;
-    } else if (h_kept > 0.0) {
-      put(i, met.n++, static_cast<double>(partner), h0);
-    } else if (met.count < records.slots) {
-      move(i, met.n, met.count++);
-      put(i, met.n++, static_cast<double>(partner), h0);
-    } else {
-      met.more++;
-    }
-  }
-  FOAM_FUNCTION bool end(int i, LAMMPS_NS::tagint id, const Met &met) const    // was there room?
-  {
-    if (!renewed) return true;
-    const double count = met.more ? met.count : met.n, mark = met.more ? 0.0 : id;
-    if (records.count(i) != count) records.count(i) = count;
-    if (records.id(i) != mark) records.id(i) = mark;
-    return met.more == 0;
-  }
-
- private:
-  FOAM_FUNCTION void put(int i, int m, double partner, double h0) const
-  {
-    records.partner(i, m) = partner;
-    records.value(i, m, 0) = h0;
-  }
-  FOAM_FUNCTION void move(int i, int from, int to) const
-  {
-    if (from != to) put(i, to, records.partner(i, from), records.value(i, from, 0));
   }
 };
 
