@@ -39,25 +39,29 @@ struct Collision {
   double h0 = 0.0, hmin = 0.0;
   bool film = true;           // the elastic force begins at h0, else where surfaces meet
   bool lubrication = true;    // where the gap is wider than h0
-  double reach = -1.0;        // of it, in R, or what widest_gap() has
+  double reach = -1.0;        // of it, in R; < 0: not given, 1
   bool slides = false;        // force along the surface
 
-  // Where h0 is given, and the liquid in a gap does nothing, gaps are looked at only so that steps see a film that may
-  // close.  A chosen step moves bubbles by 0.1 R at most, two of them by 0.2 R.
+  // No force beyond this gap.  Gaps are looked at from further off than forces reach, so that steps see a film that may
+  // close: a chosen step moves each bubble by 0.1 of its own radius at most.  A reach that is given is taken as it is.
 
-  FOAM_FUNCTION double widest_gap() const    // in R
-  {
-    const double end = reach >= 0.0 ? reach : lubrication || stop != Stop::GIVEN ? 1.0 : 0.3;
-    return slides && end < 1.0 ? 1.0 : end;    // sliding ends at R
-  }
-  FOAM_FUNCTION double range(const Gap &gap) const    // no force beyond this gap
-  {
-    return longest(2.0 * gap.mean);
-  }
+  FOAM_FUNCTION double range(const Gap &gap) const { return farthest(gap.mean, gap.Ri + gap.Rj); }
   FOAM_FUNCTION double longest(double sum) const    // for all pairs with this sum of radii
   {
-    const double end = 0.5 * widest_gap() * sum, film = h0 > hmin ? h0 : hmin;
-    return end > film ? end : film;
+    return farthest(0.5 * sum, sum);
+  }
+
+ private:
+  FOAM_FUNCTION double farthest(double mean, double sum) const
+  {
+    const double film = h0 > hmin ? h0 : hmin;
+    double end = 1.0;    // sliding ends at R, and lubrication, if nothing else is said
+    if (reach >= 0.0)
+      end = slides && reach < 1.0 ? 1.0 : reach;
+    else if (!lubrication && !slides && stop == Stop::GIVEN)
+      end = 0.0;
+    const double seen = reach >= 0.0 ? film : film + 0.15 * sum;
+    return end * mean > seen ? end * mean : seen;
   }
 };
 

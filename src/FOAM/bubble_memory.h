@@ -58,13 +58,16 @@ struct Films {
       }
       return h0;
     }
+    for (int m = 0; !renewed && m < met.n; m++)
+      if (records.partner(i, m) == wanted) return records.value(i, m, 0);
     return 0.0;
   }
   FOAM_FUNCTION void keep(int i, LAMMPS_NS::tagint partner, double h0, double h_kept,
                           Met &met) const
   {
-    if (!renewed) return;
-    if (h_kept == h0) {
+    if (!renewed) {
+      if (h_kept > 0.0) met.n++;    // another image of the same partner has the next one
+    } else if (h_kept == h0) {
       met.n++;
     } else if (h_kept > 0.0) {
       put(i, met.n++, static_cast<double>(partner), h0);

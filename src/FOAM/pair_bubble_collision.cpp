@@ -124,6 +124,7 @@ void PairBubbleCollision::init_style()
   if (exact && table.empty()) table = Bubble::film_table();
   model.integral.first = exact ? table.data() : nullptr;
   request_list();
+  listed_ncalls = -1;    // LAMMPS' counters are the same again in another run from the same step
 
   const bool remembers = model.stop == Bubble::Stop::CONTACT;
   films = dynamic_cast<FixBubbleFilms *>(modify->get_fix_by_id(FILMS));

@@ -254,14 +254,24 @@ def test_sliding_is_off_at_its_own_distance(lmp, reach):
 
 
 @pytest.mark.parametrize("model, reach", [
-    ("", 1), ("lubrication no", 1), ("lubrication no h0 1e-5", 0.3), ("h0 1e-5", 1), ("reach 0.1", 0.1),
+    ("", 1), ("lubrication no", 1), ("lubrication no h0 1e-5", 0.3 + 1e-5 / R6), ("h0 1e-5", 1), ("reach 0.1", 0.1),
     ("lubrication no h0 1e-5 tangential all", 1), ("lubrication no h0 1e-5 reach 0.1", 0.1),
-    ("lubrication no h0 3e-4", 0.5)])
+    ("lubrication no h0 3e-4", 0.3 + 3e-4 / R6), ("lubrication no h0 3e-4 reach 0.1", 3e-4 / R6)])
 def test_lists_end_where_nothing_acts(lmp, model, reach):
     """Terms that are off cost no neighbors."""
     result = lmp(text(pair=model), data([[0, 0, 0], [0, 0, 4 * R6]], R6))
     found = re.search("list distance cutoff = (.*)", result.screen)
     assert float(found[1]) == pytest.approx((2 + reach) * R6 + 1e-4, rel=1e-6)    # it has 8 digits
+
+
+@pytest.mark.parametrize("change", ["displace_atoms all move 0 0 -0.001", "set atom 2 z 0.00115"])
+def test_lists_are_new_in_each_run(lmp, change):
+    """Also where another run begins at the same step."""
+    def energy(before):
+        change_of_two = change if change.startswith("set") else f"group two id 2\n{change.replace('all', 'two')}"
+        return lmp(text(run=f"{before}\n{change_of_two}\nrun 0"),
+                   data([[0, 0, 0], [0, 0, 0.00215]], R6)).thermo[-1]["c_p"][-1]
+    assert energy("run 0") == energy("") > 0
 
 
 # ---- bad input ----------------------------------------------------------------------------------
