@@ -20,7 +20,7 @@ from lammps_foam.analysis import sizes
 from lammps_foam.analysis.read import read_frames
 
 from run import command_words
-from states import LATE, NAME
+from states import NAME, is_late
 
 MOST = 2000             # bubbles of a packing
 SEEDS = (1, 2, 3)       # places
@@ -32,7 +32,7 @@ def radii_of(directory: Path) -> np.ndarray | None:
     """Radii over their mean, of the first late state with at most MOST bubbles; None if there is none."""
     frames = [frame.radius for frame in read_frames(directory / "left.lammpstrj")]
     first = int(re.search(r"-var N (\d+)", (directory / "complete").read_text()).group(1))
-    late = [R for R in frames if len(R) <= min(MOST, 1.001 * first / LATE)]
+    late = [R for R in frames if len(R) <= MOST and is_late(len(R), first)]
     return late[0] / late[0].mean() if late else None
 
 

@@ -22,7 +22,7 @@ from lammps_foam.analysis.read import Frame, Unusable, read_frames
 from lammps_foam.analysis import contacts
 from packing import packings
 from run import FRACTIONS, SERIES
-from states import EDGES, LATE, Foam, attraction, foams_in
+from states import EDGES, LATE, Foam, attraction, foams_in, is_late
 
 DPI = 200
 PANELS = (("1/n", r"1/n of $\langle R\rangle$"), ("1/n_R32", r"1/n of $R_{32}$"), ("rattlers", "share of rattlers"),
@@ -138,7 +138,7 @@ def draw_sizes(foams: tables.Foams, base: Path, pdf: bool) -> None:
                 continue
             foam = found[column]
             mean, error = foam.density.mean, foam.density.error
-            late = [state for run in foam.states for state in run if state.N <= foam.row["bubbles"] / LATE * 1.001]
+            late = [state for run in foam.states for state in run if is_late(state.N, foam.row["bubbles"])]
             ax.stairs(np.mean([state.loose for state in late], axis=0), EDGES, color="C1", fill=True, alpha=0.4,
                       label="rattlers")
             ax.stairs(mean, EDGES, color="C0", label="all")
@@ -203,7 +203,7 @@ def last_frame(directory: Path, foam: Foam) -> Frame:
     """The late state with the most bubbles, or the last one."""
     path = min(directory.glob(f"{foam.series}-{foam.fraction:.2f}-*/left.lammpstrj"))
     frames = list(read_frames(path))
-    late = [frame for frame in frames if len(frame) <= foam.row["bubbles"] / LATE * 1.001]
+    late = [frame for frame in frames if is_late(len(frame), foam.row["bubbles"])]
     return late[0] if late else frames[-1]
 
 

@@ -64,6 +64,11 @@ class Foam:
         return "1/n" in self.row
 
 
+def is_late(N: float, first: float) -> bool:
+    """Of a snapshot with N bubbles, in a run that begins with `first`, which LATE need not divide: 0.1 %."""
+    return N <= first / LATE * 1.001
+
+
 # ------------------------------------------------------------------ one snapshot
 
 def attraction(series: str) -> float:
@@ -166,7 +171,7 @@ def foam_of(name: str, fraction: float, paths: list[Path]) -> Foam:
                              "last_tau": float(min(s["tau"][-1] for s in series)),
                              "gas_change": float(max(np.max(np.abs(s["phi"] / s["phi"][0] - 1)) for s in series)),
                              "minutes": sum(map(minutes, paths))}
-    late = [[state for state in run if state.N <= first / LATE * 1.001] for run in states]
+    late = [[state for state in run if is_late(state.N, first)] for run in states]
     if not all(len(run) > 1 for run in late):
         return Foam(name, fraction, states, row)
     start = max(runs.tau_of_N(one, one["N"][0] / LATE) for one in series)

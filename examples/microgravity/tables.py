@@ -8,7 +8,7 @@ import numpy as np
 
 from crossover import MIDDLE, QUARTERS, Crossing, crossing, peaks
 from lammps_foam.analysis import sizes, table
-from states import EDGES, Foam
+from states import EDGES, Foam, is_late
 
 Foams = dict[tuple[str, float], Foam]
 Rows = list[dict[str, str]]
@@ -153,7 +153,7 @@ def said_peaks(foam: Foam) -> str:
 
 def drift(foam: Foam, index: int, kind: str) -> tuple[float, float]:
     """Change of a number from the first to the last late state of the first run, with its error."""
-    late = [state for state in foam.states[0] if state.N <= foam.row["bubbles"] / 4 * 1.001]
+    late = [state for state in foam.states[0] if is_late(state.N, foam.row["bubbles"])]
     first, last = late[0], late[-1]
     a, b = (getattr(state, kind)[index] for state in (first, last))
     errors = [getattr(state, f"{kind}_error")[index] for state in (first, last)]

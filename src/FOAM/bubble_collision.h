@@ -30,6 +30,11 @@ enum class Stop {
   GIVEN
 };    // h0: kept by each contact, of the present speed, a number
 
+// Where steps are chosen: no gap closes by more than this part of itself in one, and no bubble moves by more than this
+// part of its radius
+
+constexpr double CLOSED_IN_A_STEP = 0.2, MOVED_IN_A_STEP = 0.1;
+
 struct Collision {
   double sigma = 0.0, mu = 0.0;
   Elastic elastic = Elastic::QUADRATIC;
@@ -42,26 +47,25 @@ struct Collision {
   double reach = -1.0;        // of it, in R; < 0: not given, 1
   bool slides = false;        // force along the surface
 
-  // No force beyond this gap.  Gaps are looked at from further off than forces reach, so that steps see a film that may
-  // close: a chosen step moves each bubble by 0.1 of its own radius at most.  A reach that is given is taken as it is.
+  // No force beyond this gap.  Unless a reach is given, gaps are seen in which a film may close within the next step.
 
   FOAM_FUNCTION double range(const Gap &gap) const { return farthest(gap.mean, gap.Ri + gap.Rj); }
   FOAM_FUNCTION double longest(double sum) const    // for all pairs with this sum of radii
   {
     return farthest(0.5 * sum, sum);
   }
+  FOAM_FUNCTION double of_lubrication() const { return reach < 0.0 ? 1.0 : reach; }    // in R
 
  private:
   FOAM_FUNCTION double farthest(double mean, double sum) const
   {
-    const double film = h0 > hmin ? h0 : hmin;
-    double end = 1.0;    // sliding ends at R, and lubrication, if nothing else is said
-    if (reach >= 0.0)
-      end = slides && reach < 1.0 ? 1.0 : reach;
-    else if (!lubrication && !slides && stop == Stop::GIVEN)
-      end = 0.0;
-    const double seen = reach >= 0.0 ? film : film + 0.15 * sum;
-    return end * mean > seen ? end * mean : seen;
+    const bool film_alone = reach < 0.0 && !lubrication && stop == Stop::GIVEN;
+    double end = film_alone ? 0.0 : of_lubrication();
+    if (slides && end < 1.0) end = 1.0;    // sliding ends at R
+    double film = h0 > hmin ? h0 : hmin;
+    if (reach < 0.0)
+      film += 1.5 * MOVED_IN_A_STEP * sum;    // half as much again: speeds change within a step
+    return end * mean > film ? end * mean : film;
   }
 };
 
@@ -74,10 +78,6 @@ struct Meeting {
   double viscous = 0.0, lubrication = 0.0, sliding = 0.0;    // coefficients of speeds
   double friction = 0.0;    // the largest coefficient within the next step
 };
-
-// Where steps are chosen, no gap closes by more than this part of itself in one
-
-constexpr double CLOSED_IN_A_STEP = 0.2;
 
 // Does the gap become a film, and how thick is that?  h_kept: h0 of this contact, if it has one; it is lost where the gap
 // is wider.  No root is taken where the gap is wide.
@@ -130,7 +130,7 @@ FOAM_ALWAYS_INLINE Meeting meet(const Collision &c, const Gap &gap, double width
       deform(c, gap, overlap, m);
     }
     if (c.viscous != Viscous::NONE) m.viscous = film_coefficient(c, gap, m.overlap, m.h0);
-  } else if (c.lubrication && width < (c.reach < 0.0 ? 1.0 : c.reach) * gap.mean) {
+  } else if (c.lubrication && width < c.of_lubrication() * gap.mean) {
     m.lubrication = lubrication(c.mu, width, gap);
   }
   if (c.slides) m.sliding = sliding(c.mu, width > c.hmin ? width : c.hmin, gap.mean);

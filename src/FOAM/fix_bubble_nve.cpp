@@ -163,7 +163,7 @@ void FixBubbleNVE::set_timestep(double step)
 
 double FixBubbleNVE::next_step()
 {
-  constexpr double SAFETY = 0.9, GROW = 1.3, SHRINK = 0.3, FAR = 0.1, STABLE = 0.8;
+  constexpr double SAFETY = 0.9, GROW = 1.3, SHRINK = 0.3, STABLE = 0.8;
   double closing = 0.0;
   std::vector<double> mine{totals.error, totals.rate, totals.lightness, 0.0};
   auto meets = [&](const Bubble::CollisionTotals &its) {
@@ -185,7 +185,7 @@ double FixBubbleNVE::next_step()
   auto limit = [&](double part, double rate) {
     if (rate > 0.0) step = std::min(step, part / rate);
   };
-  limit(FAR, all[1]);
+  limit(Bubble::MOVED_IN_A_STEP, all[1]);
   limit(Bubble::CLOSED_IN_A_STEP, all[3]);
   limit(STABLE, all[2] * friction);
   if (longest > 0.0) step = std::min(step, longest);

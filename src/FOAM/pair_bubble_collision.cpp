@@ -116,6 +116,8 @@ void PairBubbleCollision::init_style()
 {
   if (!atom->radius_flag || !atom->rmass_flag)
     error->all(FLERR, "Pair style bubble/collision needs atom_style sphere");
+  if (!atom->tag_enable)
+    error->all(FLERR, "Pair style bubble/collision needs atom IDs: use atom_modify id yes");
   if (!comm->ghost_velocity)
     error->all(
         FLERR,

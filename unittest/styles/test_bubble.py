@@ -274,6 +274,19 @@ def test_lists_are_new_in_each_run(lmp, change):
     assert energy("run 0") == energy("") > 0
 
 
+@pytest.mark.parametrize("speed", [-0.1, 0.1])
+def test_terms_of_two_images_add_up(lmp, speed):
+    """In a box two diameters wide a bubble touches another and its image: one gap closes, the other opens."""
+    R = MM
+    result = lmp(text(pair="hmin 1e-6"),
+                 data([[0, 0, 0], [1.995 * MM, 0, 0]], R, [[0, 0, 0], [speed, 0, 0]],
+                      box=[(-R, 2.98 * MM), (-6 * MM, 6 * MM), (-6 * MM, 6 * MM)]))
+    frame = result.dump("dump")[0]
+    total = sum(term(frame, name) for name in TERMS)
+    assert np.abs(frame["fx"]).min() > 1e-5
+    assert total[:, 0] == pytest.approx(frame["fx"], rel=1e-10)    # sums of forces that are 10 times as large
+
+
 # ---- bad input ----------------------------------------------------------------------------------
 
 COMMON = {
@@ -349,3 +362,13 @@ def test_misfits(base_lmp, name):
         lines = lines[:lines.index("compute      c")] + "run 1\n"
     result = base_lmp(lines, data([0, 0, 0], R6), check=False)
     assert result.returncode > 0 and said in result.errors[0], result.errors
+
+
+def test_films_need_ids(base_lmp):
+    """All partners would be one."""
+    lines = f"""
+        units si\natom_style sphere\natom_modify id no\ncomm_modify vel yes
+        region b block -0.01 0.01 -0.01 0.01 -0.01 0.01\ncreate_box 1 b\ncreate_atoms 1 single 0 0 0
+        set group all diameter 0.001\n{PAIR}\npair_coeff * *\nrun 0"""
+    result = base_lmp(lines, {}, check=False)
+    assert result.returncode > 0 and "needs atom IDs: use atom_modify id yes" in result.errors[0], result.errors

@@ -361,6 +361,18 @@ def test_rests_under_a_lid(lmp, R):
     assert elastic(h0 - (1.01 * R - z - R), R) == pytest.approx(buoyancy(R), rel=1e-2)
 
 
+@pytest.mark.parametrize("R, v, h0", [((2e-3, 2e-4), (1.0, 0.0), 1e-5), ((6e-5, 6e-5), (0.03, -0.03), 2e-5),
+                                      ((1e-3, 2e-5), (1.0, 0.0), 1e-6)], ids=["unlike", "thick film", "1:50"])
+def test_chosen_steps_see_films(lmp, R, v, h0):
+    """No gap closes by more than a fifth in a step, so a film is first met at more than 0.8 h0, whatever the sizes."""
+    distance = sum(R) + 3 * max(R)
+    result = lmp(text(pair=f"lubrication no h0 {h0}", step="fix s all bubble/nve tol 1e-3", dt=1e-4, run="run 600"),
+                 data([[0, 0, 0], [distance, 0, 0]], R, [[v[0], 0, 0], [v[1], 0, 0]]))
+    gaps = [frame["x"][1] - frame["x"][0] - sum(R) for frame in result.dump("dump")]
+    met = next(gap for gap in gaps if gap < h0)
+    assert met > 0.8 * h0 * (1 - 1e-9)    # rounding: nothing has pushed before
+
+
 def test_free_flight(lmp):
     """Nothing pushes: the error of a step is 0."""
     x, v = last(lmp(text(rise=STILL, step="fix s all bubble/nve tol 1e-5", every=100, run="run 500"),
