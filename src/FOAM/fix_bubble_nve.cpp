@@ -12,13 +12,12 @@
 #include "fix_wall_bubble.h"
 #include "foam_host.h"
 #include "foam_input.h"
+#include "foam_timestep.h"
 #include "pair_bubble_collision.h"
 
 #include "comm.h"
 #include "error.h"
-#include "force.h"
 #include "modify.h"
-#include "output.h"
 
 #include <algorithm>
 #include <cmath>
@@ -137,8 +136,6 @@ void FixBubbleNVE::finish()
   finish_in(space);
 }
 
-// as fix dt/reset does
-
 void FixBubbleNVE::end_of_step()
 {
   if (tolerance > 0.0) set_timestep(next_step());
@@ -148,13 +145,7 @@ void FixBubbleNVE::set_timestep(double step)
 {
   h = step;
   shortest = shortest > 0.0 ? std::min(shortest, step) : step;
-  if (update->dt == step) return;
-  update->update_time();
-  update->dt = step;
-  update->dt_default = 0;
-  if (force->pair) force->pair->reset_dt();
-  for (auto &fix : modify->get_fix_list()) fix->reset_dt();
-  output->reset_dt();
+  foam_set_timestep(lmp, step);
 }
 
 // The error of a step, h |d| / R, goes with its third power.  Steps are not tried again, so that none may come upon

@@ -5,10 +5,13 @@
    Distributed under the GNU General Public License, version 2: see LICENSE.
 ------------------------------------------------------------------------- */
 
-#include "compute_foam_bubble.h"
-#include "create_foam.h"
 #include "compute_bubble_collision.h"
+#include "compute_bubble_flow.h"
+#include "compute_foam_bubble.h"
+#include "compute_liquid_particle.h"
+#include "create_foam.h"
 #include "fix_bubble_films.h"
+#include "fix_bubble_flow.h"
 #include "fix_bubble_nve.h"
 #include "fix_bubble_rise.h"
 #include "fix_foam_abm.h"
@@ -17,9 +20,11 @@
 #include "fix_foam_flow.h"
 #include "fix_foam_rkc.h"
 #include "fix_foam_wall.h"
+#include "fix_liquid_flow.h"
 #include "fix_wall_bubble.h"
 #include "pair_bubble_collision.h"
 #include "pair_durian_foam.h"
+#include "pair_liquid_sph.h"
 #include "relax_foam.h"
 
 #ifdef FOAM_KOKKOS
@@ -197,6 +202,14 @@ void lammpsplugin_init(void *lmp, void *handle, void *regfunc)
 
   compute.operator()<ComputeBubbleCollision>(
       "bubble/collision", "compute bubble/collision: forces on each bubble by term");
+  pair.operator()<PairLiquidSPH>("liquid/sph",
+                                 "pair style liquid/sph: particles of a resolved liquid");
+  fix.operator()<FixLiquidFlow>("liquid/flow", "fix liquid/flow: the flow of a resolved liquid");
+  fix.operator()<FixBubbleFlow>("bubble/flow", "fix bubble/flow: bubbles in a resolved liquid");
+  compute.operator()<ComputeLiquidParticle>(
+      "liquid/particle", "compute liquid/particle: what is known of each particle");
+  compute.operator()<ComputeBubbleFlow>("bubble/flow",
+                                        "compute bubble/flow: forces on each bubble in a liquid");
   command.operator()<CreateFoam>("create_foam", "create_foam: a box, and bubbles in it");
   command.operator()<RelaxFoam>("relax_foam", "relax_foam: to rest, at a gas fraction or pressure");
 

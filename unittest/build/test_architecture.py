@@ -20,7 +20,7 @@ def floors():
     found, floor = {}, ""
     for line in table.splitlines():
         floor = line[:14].strip() or floor    # or the same as above
-        files = re.findall(r"\b(?:foamplugin|(?:foam|bubble|fix|pair|compute|create|relax|lammps)_\w+\*?)", line)
+        files = re.findall(r"\b(?:foamplugin|(?:foam|bubble|liquid|fix|pair|compute|create|relax|lammps)_\w+\*?)", line)
         found.setdefault(floor, []).extend(files)
     return found
 

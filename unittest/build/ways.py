@@ -21,7 +21,11 @@ ALSO_KOKKOS = {
             "bubble/rise", "bubble/nve", "bubble/films", "wall/bubble"],
     "compute": ["foam/bubble"],
 }
-STYLES = {**ALSO_KOKKOS, "compute": ["foam/bubble", "bubble/collision"]}
+BASE_ALONE = {
+    "pair": ["liquid/sph"], "fix": ["liquid/flow", "bubble/flow"],
+    "compute": ["bubble/collision", "liquid/particle", "bubble/flow"],
+}
+STYLES = {kind: names + BASE_ALONE[kind] for kind, names in ALSO_KOKKOS.items()}
 KOKKOS_STYLES = {kind: [f"{name}/{suffix}" for name in names
                         for suffix in ("kk", "kk/device", "kk/host")]
                  for kind, names in ALSO_KOKKOS.items()}

@@ -1,0 +1,41 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   This software is distributed under the GNU General Public License.
+   Wet-foam package: see the README file of the package.
+------------------------------------------------------------------------- */
+
+#ifdef COMPUTE_CLASS
+// clang-format off
+ComputeStyle(liquid/particle,ComputeLiquidParticle);
+// clang-format on
+#else
+
+#ifndef LMP_COMPUTE_LIQUID_PARTICLE_H
+#define LMP_COMPUTE_LIQUID_PARTICLE_H
+
+#include "compute_liquid_columns.h"
+
+namespace LAMMPS_NS {
+
+// What fix liquid/flow has found for each particle
+
+class ComputeLiquidParticle : public ComputeLiquidColumns {
+ public:
+  ComputeLiquidParticle(class LAMMPS *, int, char **);
+  void init() override;
+
+ protected:
+  FoamColumns &columns(int place) override;
+  int members() const override;
+
+ private:
+  class FixLiquidFlow *flow = nullptr;
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
+#endif

@@ -1,0 +1,419 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   This software is distributed under the GNU General Public License.
+   Wet-foam package: see the README file of the package.
+------------------------------------------------------------------------- */
+
+#include "fix_liquid_flow.h"
+
+#include "fix_bubble_flow.h"
+#include "foam_host.h"
+#include "foam_input.h"
+#include "foam_timestep.h"
+#include "foam_variable.h"
+
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+#include "modify.h"
+#include "update.h"
+
+#include <algorithm>
+#include <cmath>
+
+using namespace LAMMPS_NS;
+using namespace FixConst;
+
+static const std::vector<std::string> FACES{"xlo", "xhi", "ylo", "yhi", "zlo", "zhi"};
+
+/* ----------------------------------------------------------------------
+   fix ID group-ID liquid/flow RE FR keyword value ...
+------------------------------------------------------------------------- */
+
+FixLiquidFlow::FixLiquidFlow(LAMMPS *lmp, int narg, char **arg) : FixFoamTravelling(lmp, narg, arg)
+{
+  using Value = FoamInput::Value;
+  FoamInput input(error, "Fix liquid/flow", narg - 3, arg + 3);
+  set.Re = input.argument("RE").number(FoamInput::ABOVE, 0.0);
+  const Value fr = input.argument("FR");
+  if (!fr.is("none")) {
+    const double Fr = fr.number(FoamInput::ABOVE, 0.0);
+    set.gravity[2] = -1.0 / (Fr * Fr);
+  }
+  state.use(atom->nmax);
+  auto from_variable = [&](const Value &v, int column) {
+    const std::string name = v.word("v_name, an atom-style variable");
+    if (name.compare(0, 2, "v_") != 0) v.reject("v_name, an atom-style variable");
+    check_atom_variable(lmp, "liquid/flow", name.substr(2));
+    take_atom_variable(lmp, "liquid/flow", name.substr(2), igroup, state[column]);
+  };
+  input.keywords(
+      {{"ma",
+        [&](const Value &v) {
+          set.Ma = v.number(FoamInput::AT_LEAST, 0.0);
+        }},
+       {"les",
+        [&](const Value &v) {
+          set.closure.kind =
+              static_cast<Liquid::Closure::Kind>(v.one_of({"none", "smagorinsky", "mixed"}));
+          if (set.closure.kind != Liquid::Closure::NONE)
+            set.closure.constant =
+                input
+                    .argument(set.closure.kind == Liquid::Closure::MIXED ? "CM of les"
+                                                                         : "CS of les")
+                    .number(FoamInput::AT_LEAST, 0.0);
+        }},
+       {"wall",
+        [&](const Value &v) {
+          const int face = v.one_of(FACES);
+          const int how =
+              input.argument("kind of wall " + FACES[face]).one_of({"noslip", "slip", "symmetric"});
+          walls.kind[face / 2][face % 2] = how == 0 ? Liquid::Walls::NOSLIP : Liquid::Walls::SLIP;
+        }},
+       {"solver",
+        [&](const Value &v) {
+          tolerance = v.between(0.0, 1.0);
+          most_iterations = input.argument("MAXITER of solver").integer(1, 1000000);
+        }},
+       {"shift",
+        [&](const Value &v) {
+          set.shifts = v.one_of({"no", "yes"});
+        }},
+       {"pressure",
+        [&](const Value &v) {
+          from_variable(v, PRESSURE);
+        }},
+       {"acceleration",
+        [&](const Value &v) {
+          from_variable(v, ACCELERATION);
+          from_variable(input.argument("ay of acceleration"), ACCELERATION + 1);
+          from_variable(input.argument("az of acceleration"), ACCELERATION + 2);
+        }},
+       {"dtmax", [&](const Value &v) {
+          longest = v.number(FoamInput::ABOVE, 0.0);
+        }}});
+
+  time_integrate = 1;
+  nevery = 1;
+  vector_flag = 1;
+  size_vector = 8;
+  extvector = 0;
+  global_freq = 1;
+  restart_global = 1;
+  maxexchange = STATE;
+  comm_forward = 5;
+
+  add_callbacks();
+}
+
+FixLiquidFlow *FixLiquidFlow::of(LAMMPS *lmp)
+{
+  for (auto &fix : lmp->modify->get_fix_list())
+    if (auto *its = dynamic_cast<FixLiquidFlow *>(fix)) return its;
+  return nullptr;
+}
+
+int FixLiquidFlow::setmask()
+{
+  return INITIAL_INTEGRATE | FINAL_INTEGRATE | END_OF_STEP | PRE_FORCE;    // the last for set-up
+}
+
+void FixLiquidFlow::init()
+{
+  if (!atom->radius_flag || !atom->rmass_flag)
+    error->all(FLERR, "Fix liquid/flow needs atom_style sphere");
+  if (utils::strmatch(update->integrate_style, "^respa"))
+    error->all(FLERR, "Fix liquid/flow needs run_style verlet");
+  pair = PairLiquidSPH::of(lmp);
+  if (!pair) error->all(FLERR, "Fix liquid/flow needs pair_style liquid/sph");
+  if (of(lmp) != this) error->all(FLERR, "Fix liquid/flow: there can be one only");
+  gas = FixBubbleFlow::of(lmp);
+  pair->liquidbit = groupbit;
+  pair->gasbit = gas ? gas->groupbit : 0;
+  set.dr = pair->dr;
+  set.h0 = pair->h0();
+  for (int k = 0; k < 3; k++)
+    for (int end = 0; end < 2; end++) {
+      walls.place[k][end] = end ? domain->boxhi[k] : domain->boxlo[k];
+      if (walls.kind[k][end] && domain->boundary[k][end] != 1)
+        error->all(
+            FLERR,
+            "Fix liquid/flow: face {} is no place for a wall: its boundary must be f, not {}",
+            FACES[2 * k + end], "pfsm"[domain->boundary[k][end]]);
+      if (domain->prd[k] < 2.0 * pair->reach())
+        error->all(FLERR, "Fix liquid/flow: the box is {} wide along {}: it must be {} at least",
+                   domain->prd[k], "xyz"[k], 2.0 * pair -> reach());
+    }
+  given_dt = update->dt;
+}
+
+/* ----------------------------------------------------------------------
+   steps
+------------------------------------------------------------------------- */
+
+// The state as it is: all columns for output, and the first step of a run that has none
+
+void FixLiquidFlow::setup_pre_force(int)
+{
+  work.use(atom->nmax);
+  vectors.use(atom->nmax);
+}
+
+void FixLiquidFlow::setup(int)
+{
+  gather(0.0);
+  look();
+  if (!(next_dt > 0.0)) next_dt = choose_step();
+  foam_set_timestep(lmp, next_dt);
+  project(next_dt);
+}
+
+void FixLiquidFlow::initial_integrate(int)
+{
+  advance();
+}
+
+void FixLiquidFlow::final_integrate()
+{
+  work.use(atom->nmax);
+  vectors.use(atom->nmax);
+  done_dt = update->dt;
+  gather(done_dt);
+  project(done_dt);
+  move(done_dt);
+}
+
+void FixLiquidFlow::end_of_step()
+{
+  next_dt = choose_step();
+  foam_set_timestep(lmp, next_dt);
+}
+
+double FixLiquidFlow::choose_step()
+{
+  double mine[2] = {speeds.speed, totals.nu}, all[2];
+  MPI_Allreduce(mine, all, 2, MPI_DOUBLE, MPI_MAX, world);
+  const double *g = set.gravity;
+  const double step = Liquid::longest_step(set.h0, std::sqrt(all[0]), set.Re, all[1],
+                                           std::sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]));
+  return longest > 0.0 ? std::min(step, longest) : step;
+}
+
+void FixLiquidFlow::post_run()
+{
+  const double next = next_dt;
+  foam_set_timestep(lmp, given_dt);
+  next_dt = next;
+}
+
+/* ----------------------------------------------------------------------
+   loops
+------------------------------------------------------------------------- */
+
+void FixLiquidFlow::advance()
+{
+  FoamHost space(lmp, groupbit);
+  space.for_each(atom->nlocal,
+                 Liquid::Advance<FoamHost::Bubbles>{space.bubbles(), walls, update->dt});
+}
+
+void FixLiquidFlow::look()
+{
+  FoamHost space(lmp, groupbit);
+  speeds = space.totals<Liquid::SpeedTotals>(
+      atom->nlocal, Liquid::LookAtSpeeds<FoamHost::Bubbles>{space.bubbles(), set});
+}
+
+void FixLiquidFlow::gather(double dt)
+{
+  FoamHost space(lmp, groupbit);
+  gather_in(space, dt);
+}
+
+void FixLiquidFlow::project(double dt)
+{
+  FoamHost space(lmp, groupbit);
+  project_in(space, dt);
+}
+
+void FixLiquidFlow::move(double dt)
+{
+  FoamHost space(lmp, groupbit);
+  speeds = space.totals<Liquid::SpeedTotals>(
+      atom->nlocal, Liquid::Move<FoamHost::Bubbles>{
+                        space.bubbles(),
+                        walls,
+                        columns_in(space),
+                        set,
+                        state[PRESSURE],
+                        {state[ACCELERATION], state[ACCELERATION + 1], state[ACCELERATION + 2]},
+                        state[SMOOTHING],
+                        dt});
+}
+
+template <class Space> void FixLiquidFlow::gather_in(Space &space, double dt)
+{
+  using namespace Liquid;
+  using B = typename Space::Bubbles;
+  const auto list = pair->rows(PairLiquidSPH::LIQUID);
+  using List = decltype(pair->rows(PairLiquidSPH::LIQUID));
+  const auto loop = loop_in(space, list);
+  const Columns &c = loop.c;
+  const int nrows = pair->nrows(PairLiquidSPH::LIQUID);
+
+  space.for_all(atom->nlocal + atom->nghost, WithoutGas{c, set});
+  if (gas) {
+    const auto bubbles = loop_in(space, pair->rows(PairLiquidSPH::BUBBLES_OF_LIQUID));
+    space.for_all(nrows, TakeGas<B, List>{bubbles, space.column(state, SMOOTHING)});
+    send(work, ALPHA, 2);
+  }
+  space.for_all(nrows, Gather<B, List>{loop});
+  if (set.shifts || gas) {
+    send(work, RAW, 3);
+    space.for_all(nrows, Smooth<B, List>{loop, gas != nullptr});
+  }
+  if (gas) {
+    space.for_each(atom->nlocal, Curl{c});
+    send(work, VORTEX, 5);
+    send(state, ACCELERATION, 3);
+    double *const acceleration[3] = {space.column(state, ACCELERATION),
+                                     space.column(state, ACCELERATION + 1),
+                                     space.column(state, ACCELERATION + 2)};
+    gas->exchange_in(space, loop, pair->rows(PairLiquidSPH::LIQUID_OF_BUBBLES),
+                     pair->nrows(PairLiquidSPH::LIQUID_OF_BUBBLES), acceleration, dt);
+    space.for_all(nrows, TakeReaction<B, List>{loop.b, pair->rows(PairLiquidSPH::BUBBLES_OF_LIQUID),
+                                               c, gas->columns_in(space)});
+  }
+  totals = space.template totals<GatherTotals>(atom->nlocal, Account{c, set});
+}
+
+// dot products and ghosts for the solver
+
+template <bool BY_ROWS, class Space>
+Liquid::Solved FixLiquidFlow::solve_in(Space &space, const Liquid::Matrix<BY_ROWS> &matrix)
+{
+  using namespace Liquid;
+  const int n = atom->nlocal;
+  const Vectors w{space.column(work, SOLUTION), space.column(vectors, 0), space.column(vectors, 1),
+                  space.column(vectors, 2),     space.column(vectors, 3), space.column(vectors, 4),
+                  space.column(vectors, 5),     space.column(vectors, 6)};
+  auto ghosts = [&](const double *vector) {
+    if (vector == w.x) send(work, SOLUTION, 1);
+    if (vector == w.p) send(vectors, 3, 1);
+    if (vector == w.s) send(vectors, 5, 1);
+  };
+  auto all = [&](const auto &functor) {
+    return foam_sum(space.template totals<Products>(n, functor), world);
+  };
+  auto each = [&](const auto &functor) {
+    space.for_each(n, functor);
+  };
+  return solve(matrix, w, tolerance, most_iterations, Means{ghosts, all, each});
+}
+
+template <class Space> void FixLiquidFlow::project_in(Space &space, double dt)
+{
+  using namespace Liquid;
+  using B = typename Space::Bubbles;
+  const auto list = pair->rows(PairLiquidSPH::LIQUID);
+  using List = decltype(pair->rows(PairLiquidSPH::LIQUID));
+  const auto loop = loop_in(space, list);
+  const int nrows = pair->nrows(PairLiquidSPH::LIQUID);
+  send(work, DIFFUSES, 1);
+  space.for_all(nrows, Predict<B, List>{loop, dt});
+  send(work, STAR, 3);
+
+  const size_t width = pair->widest(), rows = atom->nlocal;
+  if (entries.size() < width * rows) {
+    entries.resize(width * rows);
+    entry_columns.resize(width * rows);
+  }
+  row_sizes.resize(rows);
+  const Matrix<true> matrix{entries.data(), entry_columns.data(), row_sizes.data(), rows, width};
+  const double *const before = space.column(state, PRESSURE);
+  space.for_all(atom->nlocal, StartSolution{before, space.column(work, SOLUTION)});
+  space.for_all(
+      nrows, Assemble<B, List, Matrix<true>>{loop, matrix, before, space.column(vectors, 0), dt});
+  solved = solve_in<true>(space, matrix);
+  check(solved);
+  iterations_in_all += solved.iterations;
+  send(work, SOLUTION, 1);
+  space.for_all(nrows, Project<B, List>{loop});
+}
+
+void FixLiquidFlow::check(const Liquid::Solved &its) const
+{
+  if (its.end == Liquid::Solved::CONVERGED) return;
+  error->all(FLERR,
+             "Fix liquid/flow: the pressure was not found at step {}: residual {} after {} "
+             "iterations, wanted {} in at most {}",
+             update->ntimestep, its.residual, its.iterations, tolerance, most_iterations);
+}
+
+/* ----------------------------------------------------------------------
+   columns of ghosts
+------------------------------------------------------------------------- */
+
+void FixLiquidFlow::send(FoamColumns &columns, int first, int count)
+{
+  sent = &columns;
+  sent_first = first;
+  sent_count = count;
+  comm->forward_comm(this, count);
+}
+
+int FixLiquidFlow::pack_forward_comm(int n, int *list, double *buf, int, int *)
+{
+  int m = 0;
+  for (int k = 0; k < sent_count; k++) {
+    const double *const column = (*sent)[sent_first + k];
+    for (int i = 0; i < n; i++) buf[m++] = column[list[i]];
+  }
+  return m;
+}
+
+void FixLiquidFlow::unpack_forward_comm(int n, int first, double *buf)
+{
+  int m = 0;
+  for (int k = 0; k < sent_count; k++) {
+    double *const column = (*sent)[sent_first + k];
+    for (int i = first; i < first + n; i++) column[i] = buf[m++];
+  }
+}
+
+/* ----------------------------------------------------------------------
+   output and restart
+------------------------------------------------------------------------- */
+
+double FixLiquidFlow::compute_vector(int n)
+{
+  const double mine[] = {speeds.kinetic, totals.dissipated, totals.surface, totals.volume_of_gas};
+  if (n >= 4) {
+    double all;
+    MPI_Allreduce(&mine[n - 4], &all, 1, MPI_DOUBLE, MPI_SUM, world);
+    return all;
+  }
+  if (n == 0) return update->atime;
+  if (n == 1) return next_dt;
+  if (n == 2) return solved.iterations;
+  return solved.residual;
+}
+
+void FixLiquidFlow::write_restart(FILE *fp)
+{
+  if (comm->me != 0) return;
+  const double values[] = {next_dt, iterations_in_all};
+  const int size = sizeof(values);
+  fwrite(&size, sizeof(int), 1, fp);
+  fwrite(values, size, 1, fp);
+}
+
+void FixLiquidFlow::restart(char *buf)
+{
+  const auto *values = (const double *) buf;
+  next_dt = values[0];
+  iterations_in_all = values[1];
+}

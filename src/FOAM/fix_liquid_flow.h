@@ -1,0 +1,111 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   This software is distributed under the GNU General Public License.
+   Wet-foam package: see the README file of the package.
+------------------------------------------------------------------------- */
+
+#ifdef FIX_CLASS
+// clang-format off
+FixStyle(liquid/flow,FixLiquidFlow);
+// clang-format on
+#else
+
+#ifndef LMP_FIX_LIQUID_FLOW_H
+#define LMP_FIX_LIQUID_FLOW_H
+
+#include "fix_foam_travelling.h"
+#include "liquid_operators.h"
+#include "liquid_solver.h"
+#include "pair_liquid_sph.h"
+
+#include "atom.h"
+
+#include <vector>
+
+namespace LAMMPS_NS {
+
+// The flow of a resolved liquid: a projection in each step, of a length that is chosen (liquid_operators.h)
+
+class FixLiquidFlow : public FixFoamTravelling {
+ public:
+  FixLiquidFlow(class LAMMPS *, int, char **);
+  static FixLiquidFlow *of(class LAMMPS *);    // the one there is, or none
+  int setmask() override;
+  void init() override;
+  void setup_pre_force(int) override;
+  void setup(int) override;
+  void initial_integrate(int) override;
+  void final_integrate() override;
+  void end_of_step() override;
+  void post_run() override;
+  void reset_dt() override {}
+  double compute_vector(int) override;
+  int pack_forward_comm(int, int *, double *, int, int *) override;
+  void unpack_forward_comm(int, int, double *) override;
+
+  void write_restart(FILE *) override;
+  void restart(char *) override;
+
+  enum { PRESSURE, ACCELERATION, SMOOTHING = ACCELERATION + 3, STATE };
+  FoamColumns state{all_columns, "state of the liquid", STATE, TRAVELS};
+  Liquid::Walls walls;
+  FoamColumns work{all_columns, "columns of the liquid", Liquid::COLUMNS,
+                   STAYS};    // of the last evaluation
+
+ protected:
+  PairLiquidSPH *pair = nullptr;
+  class FixBubbleFlow *gas = nullptr;    // none: no bubbles
+  Liquid::Setting set;
+
+  virtual void look();    // at velocities
+  virtual void advance();
+  virtual void gather(double dt);    // 0: bubbles keep their velocities
+  virtual void project(double dt);
+  virtual void move(double dt);
+
+  template <class Space> Liquid::Columns columns_in(Space &space)
+  {
+    Liquid::Columns all;
+    for (int k = 0; k < Liquid::COLUMNS; k++) all.at[k] = space.column(work, k);
+    return all;
+  }
+  template <class Space, class List> auto loop_in(Space &space, const List &list)
+  {
+    return Liquid::Loop<typename Space::Bubbles, List>{space.bubbles(), list, walls,
+                                                       columns_in(space), set};
+  }
+  template <class Space> void gather_in(Space &, double dt);
+  template <class Space> void project_in(Space &, double dt);
+  template <bool BY_ROWS, class Space>
+  Liquid::Solved solve_in(Space &, const Liquid::Matrix<BY_ROWS> &);
+
+  virtual void send(FoamColumns &columns, int first, int count);    // to ghosts
+
+  FoamColumns vectors{all_columns, "vectors of the solver", 7, STAYS};
+  std::vector<double> entries;
+  std::vector<int> entry_columns, row_sizes;
+
+ private:
+  double tolerance = 1.0e-6, longest = 0.0, given_dt = 0.0;
+  int most_iterations = 1000;
+  double next_dt = 0.0;    // 0: not yet known
+  double done_dt = 0.0;    // of the last step
+  Liquid::GatherTotals totals;
+  Liquid::SpeedTotals speeds;    // of this rank
+  Liquid::Solved solved;
+  double iterations_in_all = 0.0;
+
+  FoamColumns *sent = nullptr;
+  int sent_first = 0, sent_count = 0;
+
+  double choose_step();
+  void check(const Liquid::Solved &) const;
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
+#endif

@@ -1,0 +1,240 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   This software is distributed under the GNU General Public License.
+   Wet-foam package: see the README file of the package.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_LIQUID_BUBBLES_H
+#define LMP_LIQUID_BUBBLES_H
+
+#include "liquid_operators.h"
+
+// Bubbles in the liquid [K23], as functors for each bubble, and for each particle of the liquid what bubbles do to it.  What is
+// at a bubble is a mean over the particles around it, each with its own h:
+//   phi_b = sum_i phi_i W(|r_b - r_i|, h_i) V_i / V_lb,  V_lb = sum_i W V_i
+// What it does to them goes back with the same weights, M_i = sum_b M_b W / V_lb, so that sum_i V_i M_i = sum_b M_b.
+
+namespace Liquid {
+
+enum AtBubble {
+  AROUND,    // V_lb
+  FLOW,      // u_l
+  CURL = FLOW + 3,
+  TURBULENCE = CURL + 3,    // k
+  EPS_B,
+  LIQUID_ACCELERATION,    // du_l/dt
+  DRAG = LIQUID_ACCELERATION + 3,
+  LIFT_FORCE = DRAG + 3,
+  VIRTUAL = LIFT_FORCE + 3,
+  BUOYANCY = VIRTUAL + 3,
+  BUBBLE_ACCELERATION = BUOYANCY + 3,
+  REACTION = BUBBLE_ACCELERATION + 3,    // M_b, nu_b, 1/V_lb: ghosts have these
+  VISCOSITY_B = REACTION + 3,
+  INVERSE_AROUND,
+  AT_BUBBLES
+};
+
+struct BubbleColumns {
+  double *at[AT_BUBBLES];
+  FOAM_FUNCTION double &operator()(int c, int i) const { return at[c][i]; }
+};
+
+struct BubbleSetting {
+  double beta = 1.0;
+  bool drag = true, lift = true, virtual_mass = true, substeps = true;
+};
+
+template <class Row, class B, class Visit>
+FOAM_ALWAYS_INLINE void particles_around(const Row &row, const B &b, const Columns &c,
+                                         const Visit &visit)
+{
+  const int i = row.i;
+  row.for_each([&](int j, auto) {
+    double square = 0.0;
+    for (int k = 0; k < 3; k++) {
+      const double d = b.x(i, k) - b.x(j, k);
+      square += d * d;
+    }
+    const Kernel W(c(H, j));
+    if (square < W.reach() * W.reach()) visit(j, W(std::sqrt(square)));
+  });
+}
+
+struct Curl {    // of the velocity, from its gradient
+  static constexpr const char *NAME = "liquid: curl";
+  Columns c;
+  FOAM_FUNCTION void operator()(int i) const
+  {
+    for (int k = 0; k < 3; k++) {
+      const int a = (k + 1) % 3, d = (k + 2) % 3;
+      c(VORTEX + k, i) = c(GRADIENT + 3 * a + d, i) - c(GRADIENT + 3 * d + a, i);
+    }
+  }
+};
+
+template <class B, class List> struct Interpolate {
+  static constexpr const char *NAME = "liquid: interpolate to bubbles";
+  B b;
+  List list;
+  Columns c;
+  BubbleColumns at;
+  Setting set;
+  const double *acceleration[3];    // of particles
+  FOAM_FUNCTION void operator()(int n) const
+  {
+    const auto row = list.row(n);
+    const int i = row.i;
+    double around = 0.0, u[3] = {}, curl[3] = {}, k_sum = 0.0, eps = 0.0, dudt[3] = {};
+    particles_around(row, b, c, [&](int j, double w) {
+      const double f = w * set.volume_of_liquid() / c(ALPHA, j);
+      around += f;
+      k_sum += f * c(UNRESOLVED, j);
+      eps += f * c(EPSILON, j);
+      for (int k = 0; k < 3; k++) {
+        u[k] += f * b.v(j, k);
+        curl[k] += f * c(VORTEX + k, j);
+        dudt[k] += f * acceleration[k][j];
+      }
+    });
+    const double inverse = around > 0.0 ? 1.0 / around : 0.0;
+    at(AROUND, i) = around;
+    at(INVERSE_AROUND, i) = inverse;
+    at(TURBULENCE, i) = inverse * k_sum;
+    at(EPS_B, i) = inverse * eps;
+    for (int k = 0; k < 3; k++) {
+      at(FLOW + k, i) = inverse * u[k];
+      at(CURL + k, i) = inverse * curl[k];
+      at(LIQUID_ACCELERATION + k, i) = inverse * dudt[k];
+    }
+  }
+};
+
+// Forces on a bubble at a velocity.  A bubble that no liquid is around falls.
+
+struct OnBubble {
+  double drag;    // F_d = drag (u_l - u_b)
+  double lift[3], buoyancy[3];
+  double volume, added;    // and beta C_vm V_b, of the virtual mass
+  double speed;            // |u_rel|
+
+  template <class B>
+  FOAM_FUNCTION OnBubble(const B &b, const BubbleColumns &at, const Setting &set,
+                         const BubbleSetting &gas, int i, const double *velocity)
+  {
+    const double a = b.radius(i), wet = at(AROUND, i) > 0.0 ? 1.0 : 0.0;
+    volume = bubble_volume(a);
+    added = gas.virtual_mass ? wet * VIRTUAL_MASS * gas.beta * volume : 0.0;
+    double relative[3], square = 0.0;
+    for (int k = 0; k < 3; k++) {
+      relative[k] = at(FLOW + k, i) - velocity[k];
+      square += relative[k] * relative[k];
+    }
+    speed = wet * std::sqrt(square);
+    drag = gas.drag ? wet * drag_factor(a, speed, set.Re, gas.beta) : 0.0;
+    const double factor = gas.lift ? wet * LIFT * gas.beta * volume : 0.0;
+    for (int k = 0; k < 3; k++) {
+      const int l = (k + 1) % 3, m = (k + 2) % 3;
+      lift[k] = factor * (relative[l] * at(CURL + m, i) - relative[m] * at(CURL + l, i));
+      buoyancy[k] = (1.0 - wet * gas.beta) * volume * set.gravity[k];
+    }
+  }
+};
+
+// All of them in the present state, the acceleration, for which that of the virtual mass is solved, and the reaction
+
+template <class B> struct BubbleForces {
+  static constexpr const char *NAME = "liquid: forces on bubbles";
+  B b;
+  BubbleColumns at;
+  Setting set;
+  BubbleSetting gas;
+  FOAM_FUNCTION void operator()(int i) const
+  {
+    const double velocity[3] = {b.v(i, 0), b.v(i, 1), b.v(i, 2)};
+    const OnBubble on(b, at, set, gas, i, velocity);
+    for (int k = 0; k < 3; k++) {
+      const double d = at(DRAG + k, i) = on.drag * (at(FLOW + k, i) - velocity[k]);
+      const double l = at(LIFT_FORCE + k, i) = on.lift[k], dudt = at(LIQUID_ACCELERATION + k, i);
+      at(BUOYANCY + k, i) = on.buoyancy[k];
+      const double acceleration = at(BUBBLE_ACCELERATION + k, i) =
+          (d + l + on.buoyancy[k] + on.added * dudt) / (on.volume + on.added);
+      const double v = at(VIRTUAL + k, i) = on.added * (dudt - acceleration);
+      at(REACTION + k, i) = -(d + l + v) / gas.beta;
+    }
+    at(VISCOSITY_B, i) = bubble_viscosity(b.radius(i), on.speed);
+  }
+};
+
+// New velocities.  Drag is stiff: it is taken at the end of as many sub-steps as it has relaxation times in the step, and the
+// liquid gets the mean of what they have done.
+
+template <class B> struct MoveBubbles {
+  static constexpr const char *NAME = "liquid: move bubbles";
+  static constexpr int MOST = 100;
+  B b;
+  BubbleColumns at;
+  Setting set;
+  BubbleSetting gas;
+  double dt;
+  FOAM_FUNCTION void operator()(int i) const
+  {
+    double velocity[3] = {b.v(i, 0), b.v(i, 1), b.v(i, 2)}, reaction[3] = {};
+    const OnBubble first(b, at, set, gas, i, velocity);
+    const double times = dt * first.drag / (first.volume + first.added);
+    const int steps = gas.substeps ? static_cast<int>(std::fmin(std::ceil(times + 0.5), MOST)) : 1;
+    const double step = dt / steps;
+    for (int n = 0; n < steps; n++) {
+      const OnBubble on(b, at, set, gas, i, velocity);
+      const double mass = on.volume + on.added;
+      for (int k = 0; k < 3; k++) {
+        const double dudt = at(LIQUID_ACCELERATION + k, i), u = velocity[k];
+        const double others = on.lift[k] + on.buoyancy[k] + on.added * dudt;
+        velocity[k] = (u + step / mass * (others + on.drag * at(FLOW + k, i))) /
+                      (1.0 + step * on.drag / mass);
+        reaction[k] -= on.drag * (at(FLOW + k, i) - velocity[k]) + on.lift[k] +
+                       on.added * (dudt - (velocity[k] - u) / step);
+      }
+    }
+    for (int k = 0; k < 3; k++) {
+      b.v(i, k) = velocity[k];
+      at(REACTION + k, i) = reaction[k] / (steps * gas.beta);
+    }
+  }
+};
+
+// and what the liquid gets of it
+
+template <class B, class List> struct TakeReaction {
+  static constexpr const char *NAME = "liquid: take reaction of bubbles";
+  B b;
+  List list;
+  Columns c;
+  BubbleColumns at;
+  FOAM_FUNCTION void operator()(int n) const
+  {
+    const auto row = list.row(n);
+    const int i = row.i;
+    const Kernel W(c(H, i));
+    double M[3] = {}, nu = 0.0;
+    row.for_each([&](int j, auto) {
+      double square = 0.0;
+      for (int k = 0; k < 3; k++) {
+        const double d = b.x(i, k) - b.x(j, k);
+        square += d * d;
+      }
+      if (!(square < W.reach() * W.reach())) return;
+      const double f = W(std::sqrt(square)) * at(INVERSE_AROUND, j);
+      for (int k = 0; k < 3; k++) M[k] += f * at(REACTION + k, j);
+      nu += f * at(VISCOSITY_B, j);
+    });
+    c(NU_B, i) = nu;
+    for (int k = 0; k < 3; k++) c(BY_BUBBLES + k, i) = M[k];
+  }
+};
+
+}    // namespace Liquid
+
+#endif

@@ -1,0 +1,229 @@
+/* ----------------------------------------------------------------------
+   A liquid that is resolved by particles (SPH), one function for each formula.
+
+   Plain inline functions without LAMMPS types, callable on the host and on a device: base styles, KOKKOS styles and unit
+   tests all use these.  Three dimensions.  Dimensionless: lengths, velocities and times by integral scales, density of
+   the liquid 1, Reynolds number Re, Froude number Fr.
+
+   Source:
+     [K23]  J. R. C. King, S. J. Lind, B. D. Rogers, P. K. Stansby, R. Vacondio, J. Fluid Mech. 972, A24 (2023)
+     [B99]  J. Bonet, T.-S. L. Lok, Comput. Methods Appl. Mech. Eng. 180, 97 (1999)
+     [M97]  J. P. Morris, P. J. Fox, Y. Zhu, J. Comput. Phys. 136, 214 (1997)
+     [W95]  H. Wendland, Adv. Comput. Math. 4, 389 (1995)
+------------------------------------------------------------------------- */
+
+#ifndef LMP_LIQUID_PHYSICS_H
+#define LMP_LIQUID_PHYSICS_H
+
+#include "foam_physics.h"
+
+#include <cmath>
+
+namespace Liquid {
+
+using Foam::PI;
+
+// ---------------------------------------------------------------------- kernel
+
+// Wendland's C2 [W95], q = r/h:
+//   W = 21/(16 pi h^3) (1 - q/2)^4 (1 + 2q),  dW/dr = -21/(16 pi h^4) 5q (1 - q/2)^3,  for q < SUPPORT, else 0
+
+inline constexpr double SUPPORT = 2.0;
+
+struct Kernel {
+  double h, inverse, scale;    // h, 1/h, 21/(16 pi h^3)
+  FOAM_FUNCTION explicit Kernel(double h)
+      : h(h), inverse(1.0 / h), scale(21.0 / (16.0 * PI) * inverse * inverse * inverse)
+  {
+  }
+  FOAM_FUNCTION double operator()(double r) const
+  {
+    const double q = r * inverse, a = 1.0 - 0.5 * q;
+    return q < SUPPORT ? scale * a * a * a * a * (1.0 + 2.0 * q) : 0.0;
+  }
+  FOAM_FUNCTION double
+  slope_over_r(double r) const    // (1/r) dW/dr: grad W = slope_over_r (r_i - r_j)
+  {
+    const double q = r * inverse, a = 1.0 - 0.5 * q;
+    return q < SUPPORT ? -5.0 * scale * inverse * inverse * a * a * a : 0.0;
+  }
+  FOAM_FUNCTION double reach() const { return SUPPORT * h; }
+};
+
+// ---------------------------------------------------------------------- operators
+
+// Part of a neighbor in the Laplacian of Morris [M97]: sum_j 2 (f_i - f_j) / r^2 r . grad W V_j, times the
+// harmonic mean of coefficients in div(kappa grad f)
+
+FOAM_FUNCTION double laplacian_weight(double slope_over_r, double volume)
+{
+  return 2.0 * slope_over_r * volume;
+}
+
+FOAM_FUNCTION double harmonic_mean(double a, double b)
+{
+  return a + b > 0.0 ? 2.0 * a * b / (a + b) : 0.0;
+}
+
+// Symmetric matrices: xx, yy, zz, xy, xz, yz
+
+FOAM_FUNCTION void multiply(const double *m, const double *a, double *result)
+{
+  result[0] = m[0] * a[0] + m[3] * a[1] + m[4] * a[2];
+  result[1] = m[3] * a[0] + m[1] * a[1] + m[5] * a[2];
+  result[2] = m[4] * a[0] + m[5] * a[1] + m[2] * a[2];
+}
+
+// The correction of gradients [B99], inverse of A = sum_j V_j grad W (r_j - r_i)^T, which is 1 for many neighbors, half of
+// it at a plane surface.  Where a particle has few of them, or all in a plane, there is none: 1 in its place.
+
+inline constexpr double LEAST_DETERMINANT = 1.0e-3;
+
+FOAM_FUNCTION bool correction(const double *A, double *L)
+{
+  const double xx = A[1] * A[2] - A[5] * A[5], xy = A[4] * A[5] - A[3] * A[2],
+               xz = A[3] * A[5] - A[4] * A[1];
+  const double determinant = A[0] * xx + A[3] * xy + A[4] * xz;
+  if (!(determinant > LEAST_DETERMINANT)) {
+    for (int k = 0; k < 6; k++) L[k] = k < 3 ? 1.0 : 0.0;
+    return false;
+  }
+  const double inverse = 1.0 / determinant;
+  L[0] = inverse * xx;
+  L[1] = inverse * (A[0] * A[2] - A[4] * A[4]);
+  L[2] = inverse * (A[0] * A[1] - A[3] * A[3]);
+  L[3] = inverse * xy;
+  L[4] = inverse * xz;
+  L[5] = inverse * (A[3] * A[4] - A[0] * A[5]);
+  return true;
+}
+
+// ---------------------------------------------------------------------- gas and surface
+
+// gas c in a particle [K23 (2.7)]: volume of the particle over that of its liquid is 1 + c.  At c = 1/2 the smoothing
+// length has grown as far as cutoffs know of.
+
+inline constexpr double MOST_GAS = 0.5;
+FOAM_FUNCTION double liquid_fraction(double c)
+{
+  return 1.0 / (1.0 + c);
+}
+FOAM_FUNCTION double smoothing_length(double h0, double alpha)
+{
+  return h0 / std::cbrt(alpha);
+}
+
+// sum_j V_j (r_j - r_i) . grad W is 3 inside
+
+inline constexpr double SURFACE_COVER = 2.4;
+
+// Shifting [K23 (3.11)]: towards where particles are few, a neighbor's weight 1 + (1/4) (W/W(0))^4, by -(h^2/4) times the
+// gradient of concentration
+
+FOAM_FUNCTION double shift_weight(double w, double w0)
+{
+  const double q = w / w0, square = q * q;
+  return 1.0 + 0.25 * square * square;
+}
+FOAM_FUNCTION double shift_of(double h, double gradient)
+{
+  return -0.25 * h * h * gradient;
+}
+
+// ---------------------------------------------------------------------- large eddies
+
+struct Closure {
+  enum Kind { NONE, SMAGORINSKY, MIXED } kind = MIXED;
+  double constant = 0.06;    // C_S, or C_M
+};
+
+// |S|^2 = 2 S:S of the gradient [a][k] = d u_k / d a
+
+FOAM_FUNCTION double strain_rate(const double (*gradient)[3])
+{
+  double square = 0.0;
+  for (int a = 0; a < 3; a++)
+    for (int k = 0; k < 3; k++) {
+      const double s = 0.5 * (gradient[a][k] + gradient[k][a]);
+      square += 2.0 * s * s;
+    }
+  return std::sqrt(square);
+}
+
+// Viscosity of what is not resolved, over that of the liquid.  Mixed scales [K23 (2.4)], with the exponent of |S| that its
+// dimension wants: nu = Re C_M h^(1+xi) |S|^xi (q^2)^((1-xi)/2), xi = 1/2, q^2 = |u - filtered u|^2 / 2.  Smagorinsky:
+// nu = Re (C_S h)^2 |S|.
+
+FOAM_FUNCTION double eddy_viscosity(const Closure &closure, double Re, double h, double S,
+                                    double q2)
+{
+  switch (closure.kind) {
+    case Closure::MIXED:
+      return Re * closure.constant * h * std::sqrt(h * S * std::sqrt(q2));
+    case Closure::SMAGORINSKY:
+      return Re * closure.constant * closure.constant * h * h * S;
+    default:
+      return 0.0;
+  }
+}
+
+FOAM_FUNCTION double dissipation(double Re, double nu_S, double S)
+{
+  return (1.0 + nu_S) / Re * S * S;
+}
+
+// ---------------------------------------------------------------------- step
+
+// No particle goes further than 0.2 h in a step, nor does momentum diffuse further [K23 (3.15)]; the third limit is ours,
+// for a liquid that begins at rest: nothing falls further than that either.
+
+inline constexpr double COURANT = 0.2;
+
+FOAM_FUNCTION double longest_step(double h, double speed, double Re, double nu, double gravity)
+{
+  double step = COURANT * Re * h * h / (1.0 + nu);
+  if (speed > 0.0) step = std::fmin(step, COURANT * h / speed);
+  if (gravity > 0.0) step = std::fmin(step, COURANT * std::sqrt(h / gravity));
+  return step;
+}
+
+// ---------------------------------------------------------------------- bubbles in it
+
+// Bubbles are smaller than the spacing: radius a, velocity u_b, volume V_b; beta is the density of the liquid over that of
+// the gas.  Forces are divided by the density of the gas, so that V_b du_b/dt = F.
+
+FOAM_FUNCTION double bubble_volume(double a)
+{
+  return 4.0 / 3.0 * PI * a * a * a;
+}
+
+// Schiller and Naumann [K23 (2.15)], Re_b = 2 a |u_rel| Re
+
+FOAM_FUNCTION double drag_coefficient(double Re_b)
+{
+  if (Re_b > 1000.0) return 0.44;
+  return 24.0 / Re_b * (1.0 + 0.15 * std::pow(Re_b, 0.687));
+}
+
+// F_d = k u_rel, u_rel = u_l - u_b; without the first branch, 0/0 at rest
+
+FOAM_FUNCTION double drag_factor(double a, double speed, double Re, double beta)
+{
+  const double Re_b = 2.0 * a * speed * Re;
+  const double coefficient_by_speed =
+      Re_b > 1.0e-12 ? drag_coefficient(Re_b) * speed : 12.0 / (a * Re);
+  return 0.5 * beta * PI * a * a * coefficient_by_speed;
+}
+
+inline constexpr double LIFT = 0.5, VIRTUAL_MASS = 0.5;    // C_l, C_vm
+
+// Viscosity by a bubble [K23 (2.5)], before it is spread over the liquid
+
+FOAM_FUNCTION double bubble_viscosity(double a, double speed)
+{
+  return 0.6 * 2.0 * a * speed;
+}
+
+}    // namespace Liquid
+
+#endif
