@@ -92,8 +92,8 @@ dump_modify   d sort id format float %.17g
 @pytest.mark.parametrize("ranks, newton", [(1, "on"), (2, "on"), (4, "off")])
 @pytest.mark.parametrize("name", ["periodic", "tank"])
 def test_reference(base_lmp, name, ranks, newton):
-    """To rounding, of sums of 100 numbers, 1e-13 of the largest; of what the pressure is found by, to 1e-11, since the solver ends
-    at 1e-13 of the right side and the matrix has a condition of some 100."""
+    """To rounding, of sums of 100 numbers, 1e-13 of the largest; of what the pressure is found by, to 1e-11, since
+    the solver ends at 1e-13 of the right side and the matrix has a condition of some 100."""
     frame = base_lmp(script(name, newton, "run 0"), files={"data": state(name)}, ranks=ranks).dump("dump")[0]
     liquid, bubbles = table(f"{name}.liquid-rates.csv"), table(f"{name}.bubble-rates.csv")
     n = len(liquid["id"])
@@ -107,7 +107,7 @@ def test_reference(base_lmp, name, ranks, newton):
 
 @pytest.mark.parametrize("name", ["periodic", "tank"])
 def test_exchange_conserves_momentum(base_lmp, name):
-    """What the particles get is what bubbles give: sum V_i M_i = sum M_b, in a step in which drag is taken in sub-steps, too."""
+    """What the particles get is what bubbles give: sum V_i M_i = sum M_b, also where drag is taken in sub-steps."""
     frames = base_lmp(script(name, more="run 3"), files={"data": state(name)}).dump("dump")
     n, dr = len(table(f"{name}.liquid.csv")["id"]), totals(name)["dr"]
     at, of = list(PARTICLE), list(BUBBLE)
@@ -145,8 +145,9 @@ thermo_modify norm no format float %.17g
 
 
 def test_friction_is_of_second_order(base_lmp):
-    """The viscous term is nu times the Laplacian of u, -8 pi^2 u, times what the sums give of the Laplacian of x^2 on this lattice,
-    a third of the cover, but for an error of second order in dr: it falls by 4, and the next order takes a tenth of that."""
+    """The viscous term is nu times the Laplacian of u, -8 pi^2 u, times what the sums give of the Laplacian of x^2 on
+    this lattice, a third of the cover, but for an error of second order in dr: it falls by 4, less a tenth by the next
+    order."""
     Re, errors = 100, []
     for n in 16, 32:
         frame = base_lmp(VORTEX.format(n=n, Re=Re, more="") + """
@@ -162,8 +163,8 @@ run           0
 
 
 def test_vortex_decays(base_lmp):
-    """Short steps take what friction does: the work of the viscous term, to the first order in the 10^-3 of its time that they last.
-    What the projection takes from the rest is less than that: the lattice has no divergence."""
+    """Short steps take what friction does: the work of the viscous term, to the first order in the 10^-3 of its time
+    that they last. What the projection takes from the rest is less: on the lattice there is no divergence."""
     rows = base_lmp(VORTEX.format(n=16, Re=100, more="dtmax 1e-3") + """
 compute       c all liquid/particle viscousx viscousy
 variable      power atom (vx*c_c[1]+vy*c_c[2])*v_dr^3
