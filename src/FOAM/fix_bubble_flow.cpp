@@ -12,10 +12,14 @@
 #include "fix_liquid_flow.h"
 #include "foam_host.h"
 #include "foam_input.h"
+#include "liquid_births.h"
 
 #include "error.h"
 #include "modify.h"
 #include "update.h"
+
+#include <cmath>
+#include <vector>
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
@@ -28,7 +32,7 @@ FixBubbleFlow::FixBubbleFlow(LAMMPS *lmp, int narg, char **arg) : FixFoamTravell
 {
   using Value = FoamInput::Value;
   FoamInput input(error, "Fix bubble/flow", narg - 3, arg + 3);
-  We = input.argument("WE").number(FoamInput::ABOVE, 0.0);
+  set.We = input.argument("WE").number(FoamInput::ABOVE, 0.0);
   set.beta = input.argument("BETA").number(FoamInput::ABOVE, 1.0);
   auto yes_or_no = [](const Value &v) {
     return v.one_of({"no", "yes"}) == 1;
@@ -45,15 +49,34 @@ FixBubbleFlow::FixBubbleFlow(LAMMPS *lmp, int narg, char **arg) : FixFoamTravell
                    [&](const Value &v) {
                      set.virtual_mass = yes_or_no(v);
                    }},
-                  {"substep", [&](const Value &v) {
+                  {"substep",
+                   [&](const Value &v) {
                      set.substeps = yes_or_no(v);
+                   }},
+                  {"surface",
+                   [&](const Value &v) {
+                     set.surface = yes_or_no(v);
+                   }},
+                  {"langevin",
+                   [&](const Value &v) {
+                     turbulence_seed = v.count();
+                     set.turbulence = true;
+                   }},
+                  {"breakup", [&](const Value &v) {
+                     breakup_seed = v.count();
+                     set.breaks = true;
                    }}});
   time_integrate = 1;
+  force_reneighbor = 1;
+  next_reneighbor = -1;
+  nevery = 1;
   vector_flag = 1;
-  size_vector = 2;
+  size_vector = 6;
+  restart_global = 1;
+  maxexchange = Liquid::BUBBLE_STATES;
   extvector = 0;
   global_freq = 1;
-  comm_forward = Liquid::AT_BUBBLES - Liquid::REACTION;
+  state.use(atom->nmax);
   add_callbacks();
 }
 
@@ -66,13 +89,20 @@ FixBubbleFlow *FixBubbleFlow::of(LAMMPS *lmp)
 
 int FixBubbleFlow::setmask()
 {
-  return INITIAL_INTEGRATE;
+  return INITIAL_INTEGRATE | PRE_EXCHANGE | END_OF_STEP;
 }
 
 void FixBubbleFlow::init()
 {
   if (of(lmp) != this) error->all(FLERR, "Fix bubble/flow: there can be one only");
-  if (!FixLiquidFlow::of(lmp)) error->all(FLERR, "Fix bubble/flow needs fix liquid/flow");
+  const FixLiquidFlow *const liquid = FixLiquidFlow::of(lmp);
+  if (!liquid) error->all(FLERR, "Fix bubble/flow needs fix liquid/flow");
+  set.Fr = liquid->froude();
+}
+
+void FixBubbleFlow::setup(int)
+{
+  next_reneighbor = -1;
 }
 
 void FixBubbleFlow::initial_integrate(int)
@@ -83,35 +113,114 @@ void FixBubbleFlow::initial_integrate(int)
 }
 
 /* ----------------------------------------------------------------------
-   what ghosts have
+   births and deaths
 ------------------------------------------------------------------------- */
 
-int FixBubbleFlow::pack_forward_comm(int n, int *list, double *buf, int, int *)
+void FixBubbleFlow::set_arrays(int i)    // a new bubble
 {
-  int m = 0;
-  for (int k = Liquid::REACTION; k < Liquid::AT_BUBBLES; k++) {
-    const double *const column = work[k];
-    for (int i = 0; i < n; i++) buf[m++] = column[list[i]];
-  }
-  return m;
+  for (int k = 0; k < Liquid::BUBBLE_STATES; k++) state[k][i] = 0.0;
 }
 
-void FixBubbleFlow::unpack_forward_comm(int n, int first, double *buf)
+void FixBubbleFlow::end_of_step()
 {
-  int m = 0;
-  for (int k = Liquid::REACTION; k < Liquid::AT_BUBBLES; k++) {
-    double *const column = work[k];
-    for (int i = first; i < first + n; i++) column[i] = buf[m++];
-  }
+  double mine = events.gone + events.broken, all;
+  MPI_Allreduce(&mine, &all, 1, MPI_DOUBLE, MPI_MAX, world);
+  if (all > 0.0) next_reneighbor = update->ntimestep + 1;
 }
 
-// number and volume of the bubbles
+void FixBubbleFlow::pre_exchange()
+{
+  if (next_reneighbor != update->ntimestep) return;
+  if (set.breaks) break_up();
+  remove_burst();
+}
+
+void FixBubbleFlow::remove_burst()
+{
+  std::vector<bool> gone(atom->nlocal, false);
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!(atom->mask[i] & groupbit) || !(state[Liquid::GONE][i] > 0.0)) continue;
+    gone[i] = true;
+    burst += 1.0;
+    burst_volume += Liquid::bubble_volume(atom->radius[i]);
+  }
+  LiquidBirths(lmp, groupbit, density()).remove(gone);
+}
+
+// A bubble that is too long becomes two, the larger of which it remains, side by side with its centre of mass where it was.
+// Random numbers are those of its ID and of the step.
+
+void FixBubbleFlow::break_up()
+{
+  std::vector<Newborn> children;
+  for (int i = 0; i < atom->nlocal; i++) {
+    const double a = atom->radius[i], age = state[Liquid::AGE][i];
+    if (!(atom->mask[i] & groupbit) || state[Liquid::GONE][i] > 0.0) continue;
+    if (!(state[Liquid::DEFORMED][i] > 2.0 * a)) continue;
+    state[Liquid::DEFORMED][i] = 0.0;
+    const double eps = age > 0.0 ? state[Liquid::STRESSED][i] / age : 0.0;
+    const auto seed = static_cast<std::uint64_t>(breakup_seed) +
+                      (static_cast<std::uint64_t>(update->ntimestep) << 24);
+    const Foam::Draws draws(seed, atom->tag[i]);
+    const double V = Liquid::smaller_part(Liquid::least_size(set.We, eps, a), draws);
+    if (!(V > 0.0)) continue;    // too small to break
+    double n[3], square = 0.0;
+    for (int k = 0; k < 3; k++) {
+      n[k] = draws.normal(2 * k);
+      square += n[k] * n[k];
+    }
+    const double small = a * std::cbrt(V), large = a * std::cbrt(1.0 - V);
+    const double apart = (small + large) / std::sqrt(square);
+    Newborn child{
+        static_cast<double>(atom->tag[i]), 0.0, static_cast<double>(atom->type[i]), {}, {}, small};
+    for (int k = 0; k < 3; k++) {
+      child.x[k] = atom->x[i][k] + (1.0 - V) * apart * n[k];
+      child.v[k] = atom->v[i][k];
+      atom->x[i][k] -= V * apart * n[k];
+    }
+    children.push_back(child);
+    atom->radius[i] = large;
+    atom->rmass[i] *= 1.0 - V;
+    state[Liquid::AGE][i] = state[Liquid::STRESSED][i] = 0.0;
+    broken += 1.0;
+  }
+  LiquidBirths(lmp, groupbit, density()).create(children);
+}
+
+/* ----------------------------------------------------------------------
+   output and restart
+------------------------------------------------------------------------- */
+
+// number and volume of the bubbles; how many have been born here, have broken, have burst, and the volume of the latter
 
 double FixBubbleFlow::compute_vector(int n)
 {
-  double mine = 0.0, all;
-  for (int i = 0; i < atom->nlocal; i++)
-    if (atom->mask[i] & groupbit) mine += n == 0 ? 1.0 : Liquid::bubble_volume(atom->radius[i]);
-  MPI_Allreduce(&mine, &all, 1, MPI_DOUBLE, MPI_SUM, world);
+  double mine[] = {0.0, 0.0, born, broken, burst, burst_volume}, all;
+  if (n < 2)
+    for (int i = 0; i < atom->nlocal; i++)
+      if (atom->mask[i] & groupbit)
+        mine[n] += n == 0 ? 1.0 : Liquid::bubble_volume(atom->radius[i]);
+  MPI_Allreduce(&mine[n], &all, 1, MPI_DOUBLE, MPI_SUM, world);
   return all;
+}
+
+void FixBubbleFlow::write_restart(FILE *fp)
+{
+  const double mine[] = {born, broken, burst, burst_volume};
+  double all[4];
+  MPI_Reduce(mine, all, 4, MPI_DOUBLE, MPI_SUM, 0, world);
+  if (comm->me != 0) return;
+  const int size = sizeof(all);
+  fwrite(&size, sizeof(int), 1, fp);
+  fwrite(all, size, 1, fp);
+}
+
+void FixBubbleFlow::restart(char *buf)
+{
+  if (comm->me != 0) return;
+  const auto *values = (const double *) buf;
+  born = values[0];
+  broken = values[1];
+  burst = values[2];
+  burst_volume = values[3];
 }

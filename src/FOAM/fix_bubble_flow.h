@@ -21,6 +21,7 @@ FixStyle(bubble/flow,FixBubbleFlow);
 
 #include "atom.h"
 #include "comm.h"
+#include "update.h"
 
 namespace LAMMPS_NS {
 
@@ -33,15 +34,21 @@ class FixBubbleFlow : public FixFoamTravelling {
   static FixBubbleFlow *of(class LAMMPS *);    // the one there is, or none
   int setmask() override;
   void init() override;
+  void setup(int) override;
   void initial_integrate(int) override;
+  void pre_exchange() override;
+  void end_of_step() override;
+  void set_arrays(int) override;
+  void write_restart(FILE *) override;
+  void restart(char *) override;
   double compute_vector(int) override;
-  int pack_forward_comm(int, int *, double *, int, int *) override;
-  void unpack_forward_comm(int, int, double *) override;
 
+  FoamColumns state{all_columns, "state of bubbles in a liquid", Liquid::BUBBLE_STATES, TRAVELS};
   FoamColumns work{all_columns, "columns of bubbles in a liquid", Liquid::AT_BUBBLES, STAYS};
   Liquid::BubbleSetting set;
+  double density() const { return 1.0 / set.beta; }    // of the gas
 
-  // from particles to bubbles: what is there, forces; with dt > 0 new velocities.  Then ghosts have the reaction.
+  // from particles to bubbles: what is there, forces; with dt > 0 new velocities
 
   template <class Space, class List>
   void exchange_in(Space &space, const Liquid::Loop<typename Space::Bubbles, List> &liquid,
@@ -50,11 +57,17 @@ class FixBubbleFlow : public FixFoamTravelling {
   {
     Liquid::BubbleColumns all;
     for (int k = 0; k < Liquid::AT_BUBBLES; k++) all.at[k] = space.column(work, k);
+    for (int k = 0; k < Liquid::BUBBLE_STATES; k++) all.kept[k] = space.column(state, k);
     return all;
   }
 
  private:
-  double We = 0.0;
+  bigint turbulence_seed = 0, breakup_seed = 0;
+  Liquid::BubbleTotals events;                                         // of this rank, in this step
+  double born = 0.0, broken = 0.0, burst = 0.0, burst_volume = 0.0;    // so far, of this rank
+
+  void remove_burst();
+  void break_up();
 };
 
 template <class Space, class List>
@@ -72,11 +85,22 @@ void FixBubbleFlow::exchange_in(Space &space,
                                             liquid.c,
                                             at,
                                             liquid.set,
-                                            {acceleration[0], acceleration[1], acceleration[2]}});
-  Space ours(lmp, groupbit);
+                                            {acceleration[0], acceleration[1], acceleration[2]},
+                                            set.surface});
+  Space ours(space);
+  ours.groupbit = groupbit;
+  if (set.turbulence) {
+    const auto seed = static_cast<std::uint64_t>(turbulence_seed) +
+                      (static_cast<std::uint64_t>(update->ntimestep) << 24);
+    ours.for_each(atom->nlocal, AddTurbulence<B>{liquid.b, at, liquid.set, seed, dt});
+  }
   ours.for_each(atom->nlocal, BubbleForces<B>{liquid.b, at, liquid.set, set});
-  if (dt > 0.0) ours.for_each(atom->nlocal, MoveBubbles<B>{liquid.b, at, liquid.set, set, dt});
-  comm->forward_comm(this);
+  events = BubbleTotals();
+  if (dt > 0.0) {
+    ours.for_each(atom->nlocal, MoveBubbles<B>{liquid.b, at, liquid.set, set, dt});
+    events = ours.template totals<BubbleTotals>(atom->nlocal,
+                                                AgeBubbles<B>{liquid.b, at, liquid.set, set, dt});
+  }
 }
 
 }    // namespace LAMMPS_NS

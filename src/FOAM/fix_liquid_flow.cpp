@@ -9,7 +9,7 @@
 
 #include "fix_liquid_flow.h"
 
-#include "fix_bubble_flow.h"
+#include "fix_liquid_flow_loops.h"
 #include "foam_host.h"
 #include "foam_input.h"
 #include "foam_timestep.h"
@@ -48,7 +48,7 @@ FixLiquidFlow::FixLiquidFlow(LAMMPS *lmp, int narg, char **arg) : FixFoamTravell
     const std::string name = v.word("v_name, an atom-style variable");
     if (name.compare(0, 2, "v_") != 0) v.reject("v_name, an atom-style variable");
     check_atom_variable(lmp, "liquid/flow", name.substr(2));
-    take_atom_variable(lmp, "liquid/flow", name.substr(2), igroup, state[column]);
+    given.emplace_back(column, name.substr(2));
   };
   input.keywords(
       {{"ma",
@@ -109,6 +109,14 @@ FixLiquidFlow::FixLiquidFlow(LAMMPS *lmp, int narg, char **arg) : FixFoamTravell
   add_callbacks();
 }
 
+// once the columns are where they stay; what a restart file has comes later
+
+void FixLiquidFlow::post_constructor()
+{
+  for (const auto &[column, name] : given)
+    take_atom_variable(lmp, "liquid/flow", name, igroup, state[column]);
+}
+
 FixLiquidFlow *FixLiquidFlow::of(LAMMPS *lmp)
 {
   for (auto &fix : lmp->modify->get_fix_list())
@@ -131,6 +139,8 @@ void FixLiquidFlow::init()
   if (!pair) error->all(FLERR, "Fix liquid/flow needs pair_style liquid/sph");
   if (of(lmp) != this) error->all(FLERR, "Fix liquid/flow: there can be one only");
   gas = FixBubbleFlow::of(lmp);
+  pair->check_place("Fix liquid/flow", kokkosable, execution_space);
+  if (gas) pair->check_place("Fix bubble/flow", gas->kokkosable, gas->execution_space);
   pair->liquidbit = groupbit;
   pair->gasbit = gas ? gas->groupbit : 0;
   set.dr = pair->dr;
@@ -148,6 +158,12 @@ void FixLiquidFlow::init()
                    domain->prd[k], "xyz"[k], 2.0 * pair -> reach());
     }
   given_dt = update->dt;
+}
+
+double FixLiquidFlow::froude() const
+{
+  const double *g = set.gravity, square = g[0] * g[0] + g[1] * g[1] + g[2] * g[2];
+  return square > 0.0 ? 1.0 / std::sqrt(std::sqrt(square)) : 0.0;
 }
 
 /* ----------------------------------------------------------------------
@@ -216,132 +232,41 @@ void FixLiquidFlow::post_run()
 void FixLiquidFlow::advance()
 {
   FoamHost space(lmp, groupbit);
-  space.for_each(atom->nlocal,
-                 Liquid::Advance<FoamHost::Bubbles>{space.bubbles(), walls, update->dt});
+  advance_in(space);
 }
 
 void FixLiquidFlow::look()
 {
   FoamHost space(lmp, groupbit);
-  speeds = space.totals<Liquid::SpeedTotals>(
-      atom->nlocal, Liquid::LookAtSpeeds<FoamHost::Bubbles>{space.bubbles(), set});
+  look_in(space);
 }
 
 void FixLiquidFlow::gather(double dt)
 {
   FoamHost space(lmp, groupbit);
-  gather_in(space, dt);
+  gather_in(space, *pair, dt);
 }
 
 void FixLiquidFlow::project(double dt)
 {
   FoamHost space(lmp, groupbit);
-  project_in(space, dt);
+  project_in(space, *pair, room, dt);
 }
 
 void FixLiquidFlow::move(double dt)
 {
   FoamHost space(lmp, groupbit);
-  speeds = space.totals<Liquid::SpeedTotals>(
-      atom->nlocal, Liquid::Move<FoamHost::Bubbles>{
-                        space.bubbles(),
-                        walls,
-                        columns_in(space),
-                        set,
-                        state[PRESSURE],
-                        {state[ACCELERATION], state[ACCELERATION + 1], state[ACCELERATION + 2]},
-                        state[SMOOTHING],
-                        dt});
+  move_in(space, dt);
 }
 
-template <class Space> void FixLiquidFlow::gather_in(Space &space, double dt)
+Liquid::Matrix<true> FixLiquidFlow::HostRoom::matrix(size_t rows, size_t width)
 {
-  using namespace Liquid;
-  using B = typename Space::Bubbles;
-  const auto list = pair->rows(PairLiquidSPH::LIQUID);
-  using List = decltype(pair->rows(PairLiquidSPH::LIQUID));
-  const auto loop = loop_in(space, list);
-  const Columns &c = loop.c;
-  const int nrows = pair->nrows(PairLiquidSPH::LIQUID);
-
-  space.for_all(atom->nlocal + atom->nghost, WithoutGas{c, set});
-  if (gas) {
-    const auto bubbles = loop_in(space, pair->rows(PairLiquidSPH::BUBBLES_OF_LIQUID));
-    space.for_all(nrows, TakeGas<B, List>{bubbles, space.column(state, SMOOTHING)});
-    send(work, ALPHA, 2);
+  if (entries.size() < rows * width) {
+    entries.resize(rows * width);
+    columns.resize(rows * width);
   }
-  space.for_all(nrows, Gather<B, List>{loop});
-  if (set.shifts || gas) {
-    send(work, RAW, 3);
-    space.for_all(nrows, Smooth<B, List>{loop, gas != nullptr});
-  }
-  if (gas) {
-    space.for_each(atom->nlocal, Curl{c});
-    send(work, VORTEX, 5);
-    send(state, ACCELERATION, 3);
-    double *const acceleration[3] = {space.column(state, ACCELERATION),
-                                     space.column(state, ACCELERATION + 1),
-                                     space.column(state, ACCELERATION + 2)};
-    gas->exchange_in(space, loop, pair->rows(PairLiquidSPH::LIQUID_OF_BUBBLES),
-                     pair->nrows(PairLiquidSPH::LIQUID_OF_BUBBLES), acceleration, dt);
-    space.for_all(nrows, TakeReaction<B, List>{loop.b, pair->rows(PairLiquidSPH::BUBBLES_OF_LIQUID),
-                                               c, gas->columns_in(space)});
-  }
-  totals = space.template totals<GatherTotals>(atom->nlocal, Account{c, set});
-}
-
-// dot products and ghosts for the solver
-
-template <bool BY_ROWS, class Space>
-Liquid::Solved FixLiquidFlow::solve_in(Space &space, const Liquid::Matrix<BY_ROWS> &matrix)
-{
-  using namespace Liquid;
-  const int n = atom->nlocal;
-  const Vectors w{space.column(work, SOLUTION), space.column(vectors, 0), space.column(vectors, 1),
-                  space.column(vectors, 2),     space.column(vectors, 3), space.column(vectors, 4),
-                  space.column(vectors, 5),     space.column(vectors, 6)};
-  auto ghosts = [&](const double *vector) {
-    if (vector == w.x) send(work, SOLUTION, 1);
-    if (vector == w.p) send(vectors, 3, 1);
-    if (vector == w.s) send(vectors, 5, 1);
-  };
-  auto all = [&](const auto &functor) {
-    return foam_sum(space.template totals<Products>(n, functor), world);
-  };
-  auto each = [&](const auto &functor) {
-    space.for_each(n, functor);
-  };
-  return solve(matrix, w, tolerance, most_iterations, Means{ghosts, all, each});
-}
-
-template <class Space> void FixLiquidFlow::project_in(Space &space, double dt)
-{
-  using namespace Liquid;
-  using B = typename Space::Bubbles;
-  const auto list = pair->rows(PairLiquidSPH::LIQUID);
-  using List = decltype(pair->rows(PairLiquidSPH::LIQUID));
-  const auto loop = loop_in(space, list);
-  const int nrows = pair->nrows(PairLiquidSPH::LIQUID);
-  send(work, DIFFUSES, 1);
-  space.for_all(nrows, Predict<B, List>{loop, dt});
-  send(work, STAR, 3);
-
-  const size_t width = pair->widest(), rows = atom->nlocal;
-  if (entries.size() < width * rows) {
-    entries.resize(width * rows);
-    entry_columns.resize(width * rows);
-  }
-  row_sizes.resize(rows);
-  const Matrix<true> matrix{entries.data(), entry_columns.data(), row_sizes.data(), rows, width};
-  const double *const before = space.column(state, PRESSURE);
-  space.for_all(atom->nlocal, StartSolution{before, space.column(work, SOLUTION)});
-  space.for_all(
-      nrows, Assemble<B, List, Matrix<true>>{loop, matrix, before, space.column(vectors, 0), dt});
-  solved = solve_in<true>(space, matrix);
-  check(solved);
-  iterations_in_all += solved.iterations;
-  send(work, SOLUTION, 1);
-  space.for_all(nrows, Project<B, List>{loop});
+  if (sizes.size() < rows) sizes.resize(rows);
+  return {entries.data(), columns.data(), sizes.data(), rows, width};
 }
 
 void FixLiquidFlow::check(const Liquid::Solved &its) const

@@ -23,6 +23,8 @@ FixStyle(liquid/flow,FixLiquidFlow);
 
 #include "atom.h"
 
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -32,6 +34,7 @@ namespace LAMMPS_NS {
 class FixLiquidFlow : public FixFoamTravelling {
  public:
   FixLiquidFlow(class LAMMPS *, int, char **);
+  void post_constructor() override;
   static FixLiquidFlow *of(class LAMMPS *);    // the one there is, or none
   int setmask() override;
   void init() override;
@@ -52,6 +55,7 @@ class FixLiquidFlow : public FixFoamTravelling {
   enum { PRESSURE, ACCELERATION, SMOOTHING = ACCELERATION + 3, STATE };
   FoamColumns state{all_columns, "state of the liquid", STATE, TRAVELS};
   Liquid::Walls walls;
+  double froude() const;    // 0: no gravity
   FoamColumns work{all_columns, "columns of the liquid", Liquid::COLUMNS,
                    STAYS};    // of the last evaluation
 
@@ -77,18 +81,32 @@ class FixLiquidFlow : public FixFoamTravelling {
     return Liquid::Loop<typename Space::Bubbles, List>{space.bubbles(), list, walls,
                                                        columns_in(space), set};
   }
-  template <class Space> void gather_in(Space &, double dt);
-  template <class Space> void project_in(Space &, double dt);
+
+  // Rows: whose lists they are, as PairLiquidSPH; Room: where there is room for the matrix (fix_liquid_flow_loops.h)
+
+  template <class Space> void look_in(Space &);
+  template <class Space> void advance_in(Space &);
+  template <class Space, class Rows> void gather_in(Space &, const Rows &, double dt);
+  template <class Space, class Rows, class Room>
+  void project_in(Space &, const Rows &, Room &, double dt);
+  template <class Space> void move_in(Space &, double dt);
   template <bool BY_ROWS, class Space>
   Liquid::Solved solve_in(Space &, const Liquid::Matrix<BY_ROWS> &);
 
   virtual void send(FoamColumns &columns, int first, int count);    // to ghosts
+  FoamColumns *sent = nullptr;                                      // these, now
+  int sent_first = 0, sent_count = 0;
 
   FoamColumns vectors{all_columns, "vectors of the solver", 7, STAYS};
-  std::vector<double> entries;
-  std::vector<int> entry_columns, row_sizes;
 
  private:
+  struct HostRoom {
+    std::vector<double> entries;
+    std::vector<int> columns, sizes;
+    Liquid::Matrix<true> matrix(size_t rows, size_t width);
+  } room;
+  std::vector<std::pair<int, std::string>> given;    // variables with the state of the start
+
   double tolerance = 1.0e-6, longest = 0.0, given_dt = 0.0;
   int most_iterations = 1000;
   double next_dt = 0.0;    // 0: not yet known
@@ -97,9 +115,6 @@ class FixLiquidFlow : public FixFoamTravelling {
   Liquid::SpeedTotals speeds;    // of this rank
   Liquid::Solved solved;
   double iterations_in_all = 0.0;
-
-  FoamColumns *sent = nullptr;
-  int sent_first = 0, sent_count = 0;
 
   double choose_step();
   void check(const Liquid::Solved &) const;

@@ -26,7 +26,7 @@ namespace Foam {
 
 class Draws {
   std::uint64_t key;
-  static std::uint64_t mix(std::uint64_t z)
+  FOAM_FUNCTION static std::uint64_t mix(std::uint64_t z)
   {
     z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
     z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
@@ -35,13 +35,16 @@ class Draws {
   static constexpr std::uint64_t STEP = 0x9e3779b97f4a7c15u;
 
  public:
-  Draws(std::uint64_t seed, std::uint64_t bubble) : key(mix(mix(seed + STEP) + bubble * STEP)) {}
+  FOAM_FUNCTION Draws(std::uint64_t seed, std::uint64_t bubble)
+      : key(mix(mix(seed + STEP) + bubble * STEP))
+  {
+  }
 
-  double uniform(unsigned n) const    // in (0, 1), neither of them
+  FOAM_FUNCTION double uniform(unsigned n) const    // in (0, 1), neither of them
   {
     return (static_cast<double>(mix(key + (n + 1) * STEP) >> 11) + 0.5) * 0x1.0p-53;
   }
-  double normal(unsigned n) const    // Box & Muller, of numbers n and n + 1
+  FOAM_FUNCTION double normal(unsigned n) const    // Box & Muller, of numbers n and n + 1
   {
     return std::sqrt(-2.0 * std::log(uniform(n))) * std::cos(2.0 * PI * uniform(n + 1));
   }

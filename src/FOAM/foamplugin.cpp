@@ -14,6 +14,7 @@
 #include "fix_bubble_flow.h"
 #include "fix_bubble_nve.h"
 #include "fix_bubble_rise.h"
+#include "fix_bubble_sparger.h"
 #include "fix_foam_abm.h"
 #include "fix_foam_coarsen.h"
 #include "fix_foam_contacts.h"
@@ -206,6 +207,8 @@ void lammpsplugin_init(void *lmp, void *handle, void *regfunc)
                                  "pair style liquid/sph: particles of a resolved liquid");
   fix.operator()<FixLiquidFlow>("liquid/flow", "fix liquid/flow: the flow of a resolved liquid");
   fix.operator()<FixBubbleFlow>("bubble/flow", "fix bubble/flow: bubbles in a resolved liquid");
+  fix.operator()<FixBubbleSparger>("bubble/sparger",
+                                   "fix bubble/sparger: gas that flows into a liquid");
   compute.operator()<ComputeLiquidParticle>(
       "liquid/particle", "compute liquid/particle: what is known of each particle");
   compute.operator()<ComputeBubbleFlow>("bubble/flow",

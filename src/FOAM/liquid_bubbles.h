@@ -10,7 +10,10 @@
 #ifndef LMP_LIQUID_BUBBLES_H
 #define LMP_LIQUID_BUBBLES_H
 
+#include "foam_start.h"
 #include "liquid_operators.h"
+
+#include <cstdint>
 
 // Bubbles in the liquid [K23], as functors for each bubble, and for each particle of the liquid what bubbles do to it.  What is
 // at a bubble is a mean over the particles around it, each with its own h:
@@ -31,19 +34,37 @@ enum AtBubble {
   VIRTUAL = LIFT_FORCE + 3,
   BUOYANCY = VIRTUAL + 3,
   BUBBLE_ACCELERATION = BUOYANCY + 3,
-  REACTION = BUBBLE_ACCELERATION + 3,    // M_b, nu_b, 1/V_lb: ghosts have these
+  NORMAL_B = BUBBLE_ACCELERATION + 3,    // of the surface; not divided by V_lb
+  NEIGHBORS = NORMAL_B + 3,              // particles around it,
+  ON_SURFACE,                            // and those of them on the surface
+  REACTION,                              // M_b, nu_b, 1/V_lb: ghosts have these
   VISCOSITY_B = REACTION + 3,
   INVERSE_AROUND,
   AT_BUBBLES
 };
 
+// What a bubble keeps from step to step
+
+enum BubbleState {
+  TURBULENT,                   // velocity of the liquid that is not resolved
+  DEFORMED = TURBULENT + 3,    // L
+  STRESSED,                    // integral of eps over its life
+  AGE,
+  MEETS,    // 1 while the surface is near,
+  LEFT,     // and time until it is there, < 0 afterwards
+  GONE,     // 1 once it has burst
+  BUBBLE_STATES
+};
+
 struct BubbleColumns {
-  double *at[AT_BUBBLES];
+  double *at[AT_BUBBLES], *kept[BUBBLE_STATES];
   FOAM_FUNCTION double &operator()(int c, int i) const { return at[c][i]; }
+  FOAM_FUNCTION double &state(int c, int i) const { return kept[c][i]; }
 };
 
 struct BubbleSetting {
-  double beta = 1.0;
+  double We = 1.0, Fr = 0.0, beta = 1.0;    // Fr 0: no gravity
+  bool turbulence = false, breaks = false, surface = true;
   bool drag = true, lift = true, virtual_mass = true, substeps = true;
 };
 
@@ -83,11 +104,13 @@ template <class B, class List> struct Interpolate {
   BubbleColumns at;
   Setting set;
   const double *acceleration[3];    // of particles
+  bool surface;                     // is it looked for
   FOAM_FUNCTION void operator()(int n) const
   {
     const auto row = list.row(n);
     const int i = row.i;
     double around = 0.0, u[3] = {}, curl[3] = {}, k_sum = 0.0, eps = 0.0, dudt[3] = {};
+    double normal[3] = {}, count = 0.0, on_surface = 0.0;
     particles_around(row, b, c, [&](int j, double w) {
       const double f = w * set.volume_of_liquid() / c(ALPHA, j);
       around += f;
@@ -98,17 +121,62 @@ template <class B, class List> struct Interpolate {
         curl[k] += f * c(VORTEX + k, j);
         dudt[k] += f * acceleration[k][j];
       }
+      if (!surface) return;
+      count += 1.0;
+      if (c(SURFACE, j) > 0.0) on_surface += 1.0;
+      for (int k = 0; k < 3; k++) normal[k] += f * c(NORMAL + k, j);
     });
     const double inverse = around > 0.0 ? 1.0 / around : 0.0;
     at(AROUND, i) = around;
     at(INVERSE_AROUND, i) = inverse;
     at(TURBULENCE, i) = inverse * k_sum;
     at(EPS_B, i) = inverse * eps;
+    at(NEIGHBORS, i) = count;
+    at(ON_SURFACE, i) = on_surface;
     for (int k = 0; k < 3; k++) {
+      at(NORMAL_B + k, i) = normal[k];
       at(FLOW + k, i) = inverse * u[k];
       at(CURL + k, i) = inverse * curl[k];
       at(LIQUID_ACCELERATION + k, i) = inverse * dudt[k];
     }
+  }
+};
+
+// u_l = what is resolved + u', which goes on by dt
+
+template <class B> struct AddTurbulence {
+  static constexpr const char *NAME = "liquid: turbulence at bubbles";
+  B b;
+  BubbleColumns at;
+  Setting set;
+  std::uint64_t seed;    // of this step
+  double dt;
+  FOAM_FUNCTION void operator()(int i) const
+  {
+    double relative[3], square = 0.0;
+    for (int k = 0; k < 3; k++) {
+      relative[k] = at(FLOW + k, i) - b.v(i, k);
+      square += relative[k] * relative[k];
+    }
+    if (dt > 0.0) {
+      const Langevin process(at(TURBULENCE, i), std::sqrt(square), set.h0, dt);
+      const Foam::Draws draws(seed, b.tag(i));
+      const double inverse = square > 0.0 ? 1.0 / std::sqrt(square) : 0.0;
+      double zeta[3], along[2] = {0.0, 0.0};    // parts of u' and zeta along the relative velocity
+      for (int k = 0; k < 3; k++) {
+        zeta[k] = draws.normal(2 * k);
+        along[0] += relative[k] * inverse * at.state(TURBULENT + k, i);
+        along[1] += relative[k] * inverse * zeta[k];
+      }
+      for (int k = 0; k < 3; k++) {
+        const double r = relative[k] * inverse;
+        at.state(TURBULENT + k, i) = process.E[1] * at.state(TURBULENT + k, i) +
+                                     (process.E[0] - process.E[1]) * along[0] * r +
+                                     process.W[1] * zeta[k] +
+                                     (process.W[0] - process.W[1]) * along[1] * r;
+      }
+    }
+    for (int k = 0; k < 3; k++) at(FLOW + k, i) += at.state(TURBULENT + k, i);
   }
 };
 
@@ -168,6 +236,64 @@ template <class B> struct BubbleForces {
   }
 };
 
+struct BubbleTotals {
+  Foam::FoamSum gone, broken;
+  FOAM_FUNCTION void join(const BubbleTotals &other)
+  {
+    gone.join(other.gone);
+    broken.join(other.broken);
+  }
+};
+
+// Bubbles grow older, longer, and near the surface; and who bursts or breaks at the end of the step
+
+template <class B> struct AgeBubbles {
+  static constexpr const char *NAME = "liquid: age of bubbles";
+  static constexpr double FEWEST = 20.0;    // particles around a bubble that is in the liquid
+  B b;
+  BubbleColumns at;
+  Setting set;
+  BubbleSetting gas;
+  double dt;
+  FOAM_FUNCTION void operator()(int i, BubbleTotals &all) const
+  {
+    const double a = b.radius(i), eps = at(EPS_B, i);
+    at.state(AGE, i) += dt;
+    at.state(STRESSED, i) += eps * dt;
+    if (gas.breaks) {
+      double &length = at.state(DEFORMED, i);
+      length = std::fmax(length + dt * deformation_speed(eps, a, gas.We), 0.0);
+      if (length > 2.0 * a) all.broken += 1.0;
+    }
+    if (!gas.surface) return;
+    double normal = 0.0, along = 0.0;
+    for (int k = 0; k < 3; k++) {
+      normal += at(NORMAL_B + k, i) * at(NORMAL_B + k, i);
+      along += (at(FLOW + k, i) - b.v(i, k)) * at(NORMAL_B + k, i);
+    }
+    normal = std::sqrt(normal);
+    const bool near = nearness(normal, at(AROUND, i)) > LEAST_NEARNESS;
+    bool burst = at(NEIGHBORS, i) < FEWEST && at(ON_SURFACE, i) == at(NEIGHBORS, i);
+    if (!near) {
+      at.state(MEETS, i) = 0.0;
+    } else if (!(at.state(MEETS, i) > 0.0)) {
+      const double T = set.dr * normal / std::fmax(std::fabs(along), 1.0e-300);
+      if (at.state(AGE, i) > T) {
+        at.state(MEETS, i) = 1.0;
+        at.state(LEFT, i) = T;
+      }
+    } else {
+      at.state(LEFT, i) -= dt;
+      const double T = gas.Fr > 0.0 ? persistence(gas.We, gas.Fr, set.Re, a) : 0.0;
+      if (at.state(LEFT, i) < -T) burst = true;
+    }
+    if (burst) {
+      at.state(GONE, i) = 1.0;
+      all.gone += 1.0;
+    }
+  }
+};
+
 // New velocities.  Drag is stiff: it is taken at the end of as many sub-steps as it has relaxation times in the step, and the
 // liquid gets the mean of what they have done.
 
@@ -186,15 +312,25 @@ template <class B> struct MoveBubbles {
     const double times = dt * first.drag / (first.volume + first.added);
     const int steps = gas.substeps ? static_cast<int>(std::fmin(std::ceil(times + 0.5), MOST)) : 1;
     const double step = dt / steps;
+    double normal[3] = {}, held = 0.0;
+    if (gas.surface && at.state(MEETS, i) > 0.0) {
+      double square = 0.0;
+      for (int k = 0; k < 3; k++) square += at(NORMAL_B + k, i) * at(NORMAL_B + k, i);
+      held = held_at_surface(nearness(std::sqrt(square), at(AROUND, i)));
+      for (int k = 0; k < 3; k++) normal[k] = at(NORMAL_B + k, i) / std::sqrt(square);
+    }
     for (int n = 0; n < steps; n++) {
       const OnBubble on(b, at, set, gas, i, velocity);
       const double mass = on.volume + on.added;
+      double at_surface = 0.0;
+      if (held > 0.0) at_surface = held * holding(on, i, velocity, normal);
       for (int k = 0; k < 3; k++) {
         const double dudt = at(LIQUID_ACCELERATION + k, i), u = velocity[k];
-        const double others = on.lift[k] + on.buoyancy[k] + on.added * dudt;
+        const double fs = at_surface * normal[k];
+        const double others = on.lift[k] + on.buoyancy[k] + on.added * dudt + fs;
         velocity[k] = (u + step / mass * (others + on.drag * at(FLOW + k, i))) /
                       (1.0 + step * on.drag / mass);
-        reaction[k] -= on.drag * (at(FLOW + k, i) - velocity[k]) + on.lift[k] +
+        reaction[k] -= on.drag * (at(FLOW + k, i) - velocity[k]) + on.lift[k] + fs +
                        on.added * (dudt - (velocity[k] - u) / step);
       }
     }
@@ -202,6 +338,23 @@ template <class B> struct MoveBubbles {
       b.v(i, k) = velocity[k];
       at(REACTION + k, i) = reaction[k] / (steps * gas.beta);
     }
+  }
+
+  // Force along the normal that brings a bubble to the surface in the time that is left, as if there were no other
+  // [K23 (2.22)]
+
+  FOAM_FUNCTION double holding(const OnBubble &on, int i, const double *velocity,
+                               const double *normal) const
+  {
+    const double left = std::fmax(at.state(LEFT, i), dt);
+    double force = 0.0;
+    for (int k = 0; k < 3; k++) {
+      const double relative = at(FLOW + k, i) - velocity[k];
+      const double others = on.buoyancy[k] + on.drag * relative + on.lift[k] +
+                            on.added * at(LIQUID_ACCELERATION + k, i);
+      force += normal[k] * ((on.volume + on.added) * relative / left - others);
+    }
+    return force;
   }
 };
 

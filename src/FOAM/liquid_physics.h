@@ -224,6 +224,88 @@ FOAM_FUNCTION double bubble_viscosity(double a, double speed)
   return 0.6 * 2.0 * a * speed;
 }
 
+// Velocity of the liquid at a bubble that is not resolved [K23 (2.19)], a process of Langevin along the resolved relative
+// velocity and across it: u' = E u' + W zeta with normal numbers zeta.  Times by [K23 (2.20)] with the squares of velocities that
+// their dimension wants; sigma^2 = (2/3) k, a scattering that it keeps.
+
+struct Langevin {
+  double E[2], W[2];    // along, across
+  FOAM_FUNCTION Langevin(double k, double speed, double h, double dt)
+  {
+    const double square = 2.0 / 3.0 * k;
+    for (int side = 0; side < 2; side++) {
+      // 1/tau = sqrt(sigma^2 + u^2) / h, and with 4 u^2 across
+      const double rate = std::sqrt(square + (side ? 4.0 : 1.0) * speed * speed) / h;
+      E[side] = std::exp(-dt * rate);
+      W[side] = std::sqrt(square * (1.0 - E[side] * E[side]));
+    }
+  }
+};
+
+// A bubble that eddies deform [K23 (2.25)]: speed of its length, against surface tension.  It breaks once it is longer than 2 a.
+
+FOAM_FUNCTION double deformation_speed(double eps, double a, double We)
+{
+  const double s = 8.2 * std::cbrt(4.0 * eps * eps * a * a) - 6.0 / (a * We);
+  return s < 0.0 ? -std::sqrt(-s) : std::sqrt(s);
+}
+
+// Into parts V and 1 - V of its volume, with a probability [K23 (2.27)] of
+//   P(V) ~ V^(-2/3) (1-V)^(-2/3) [V^(2/9) - Lambda^(5/3)] [(1-V)^(2/9) - Lambda^(5/3)],  Lambda the least size over 2 a.
+// In y = V^(1/3), since dV = 3 V^(2/3) dy, the first factor goes; P is largest at V = 1/2 or below.
+
+FOAM_FUNCTION double least_size(double We, double eps, double a)
+{
+  return std::pow(12.0 / (8.2 * We), 0.6) * std::pow(eps, -0.4) / (2.0 * a);
+}
+
+FOAM_FUNCTION double splits(double Lambda, double V)    // density in V^(1/3), not normalised
+{
+  const double part = std::pow(Lambda, 5.0 / 3.0), ninth = 2.0 / 9.0;
+  const double one = std::pow(V, ninth) - part, other = std::pow(1.0 - V, ninth) - part;
+  return one > 0.0 && other > 0.0 ? one * other / std::cbrt((1.0 - V) * (1.0 - V)) : 0.0;
+}
+
+// The smaller part by random numbers, drawn below a bound of the density; 0 if there is none: the bubble is too small
+
+template <class Draws> FOAM_FUNCTION double smaller_part(double Lambda, const Draws &draws)
+{
+  constexpr double LEAST = 1.0e-3;
+  constexpr unsigned FIRST = 8, TRIES = 1000;
+  const double least = std::fmax(LEAST, std::pow(Lambda, 7.5));    // V^(2/9) = Lambda^(5/3)
+  if (!(least < 0.5)) return 0.0;
+  const double lo = std::cbrt(least), hi = std::cbrt(0.5), part = std::pow(Lambda, 5.0 / 3.0);
+  const double bound = std::cbrt(4.0) * (std::pow(0.5, 2.0 / 9.0) - part) * (1.0 - part);
+  double V = 0.5;
+  for (unsigned n = FIRST; n < FIRST + 2 * TRIES; n += 2) {
+    const double y = lo + (hi - lo) * draws.uniform(n);
+    V = y * y * y;
+    if (bound * draws.uniform(n + 1) < splits(Lambda, V)) return V;
+  }
+  return V;
+}
+
+// Near the surface [K23 (2.21)]: 1 on it; from LEAST_NEARNESS on a bubble meets it, and is slowed down by this part of all
+// other forces
+
+inline constexpr double LEAST_NEARNESS = 0.1;
+FOAM_FUNCTION double nearness(double normal, double around)
+{
+  return around > 0.0 ? normal / (0.353 * around) : 0.0;
+}
+FOAM_FUNCTION double held_at_surface(double nearness)
+{
+  return nearness > 0.0 ? 0.5 * (1.0 + std::erf(2.0 * std::log(5.0 * nearness))) : 0.0;
+}
+
+// how long a film lasts at the surface [K23 (2.23)], with Schmidt's number of surfactants
+
+inline constexpr double SCHMIDT = 700.0;
+FOAM_FUNCTION double persistence(double We, double Fr, double Re, double a)
+{
+  return std::pow(We, 0.75) * std::sqrt(Fr) * std::sqrt(SCHMIDT * a) / Re;
+}
+
 }    // namespace Liquid
 
 #endif

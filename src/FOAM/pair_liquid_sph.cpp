@@ -16,6 +16,7 @@
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
+#include "fix.h"
 #include "force.h"
 #include "memory.h"
 #include "modify.h"
@@ -44,6 +45,15 @@ PairLiquidSPH::~PairLiquidSPH()
 PairLiquidSPH *PairLiquidSPH::of(LAMMPS *lmp)
 {
   return dynamic_cast<PairLiquidSPH *>(lmp->force->pair_match("liquid/sph", 0));
+}
+
+void PairLiquidSPH::check_place(const char *name, int its_kokkosable, int its_space) const
+{
+  if (its_kokkosable != kokkosable || (kokkosable && its_space != execution_space))
+    error->all(FLERR,
+               "{} and pair style liquid/sph must run in the same place: use the suffix kk for all "
+               "styles of a liquid and its bubbles or for none",
+               name);
 }
 
 /* ----------------------------------------------------------------------
@@ -102,7 +112,26 @@ void PairLiquidSPH::init_style()
   if (!comm->ghost_velocity)
     error->all(FLERR,
                "Pair style liquid/sph needs the velocities of ghost atoms: comm_modify vel yes");
+  find_wet_types();
+  request_list();
+}
+
+void PairLiquidSPH::request_list()
+{
   neighbor->add_request(this, NeighConst::REQ_FULL);
+}
+
+// Types of which there is liquid.  Bubbles are many, and see none of each other: their rows would be longer than all others.
+
+void PairLiquidSPH::find_wet_types()
+{
+  const std::vector<Fix *> flows = modify->get_fix_by_style("^liquid/flow");
+  const int bit = flows.empty() ? 1 : flows[0]->groupbit;
+  std::vector<int> mine(atom->ntypes + 1, 0);
+  for (int i = 0; i < atom->nlocal; i++)
+    if (atom->mask[i] & bit) mine[atom->type[i]] = 1;
+  wet.resize(mine.size());
+  MPI_Allreduce(mine.data(), wet.data(), static_cast<int>(mine.size()), MPI_INT, MPI_MAX, world);
 }
 
 double PairLiquidSPH::init_one(int i, int j)
@@ -112,17 +141,18 @@ double PairLiquidSPH::init_one(int i, int j)
                "Pair style liquid/sph: pair_coeff {} {} is missing: pair_coeff * * covers all "
                "types",
                i, j);
-  return reach();
+  return wet[i] || wet[j] ? reach() : 0.0;
 }
 
 void PairLiquidSPH::compute(int eflag, int vflag)
 {
   ev_init(eflag, vflag);
-  if (neighbor->ago == 0 && !all_liquid()) take_lists();
+  if (neighbor->ago == 0) take_lists();
 }
 
 void PairLiquidSPH::take_lists()
 {
+  if (all_liquid()) return;
   const int *const mask = atom->mask;
   const int of[KINDS] = {liquidbit, liquidbit, gasbit},
             with[KINDS] = {liquidbit, gasbit, liquidbit};

@@ -55,6 +55,12 @@ class PairLiquidSPH : public Pair {
   int nrows(Kind) const;
   FoamHalfList<true> rows(Kind) const;
   int widest() const;    // row of the first kind, without images
+  void check_place(const char *style, int kokkosable, int execution_space) const;    // or an error
+
+ protected:
+  bool all_liquid() const { return liquidbit == 1 && gasbit == 0; }
+  virtual void request_list();
+  virtual void take_lists();    // new ones of LAMMPS
 
  private:
   struct Rows {
@@ -63,9 +69,10 @@ class PairLiquidSPH : public Pair {
   };
   Rows lists[KINDS];
 
+  std::vector<int> wet;    // of each type
+
   void allocate();
-  bool all_liquid() const { return liquidbit == 1 && gasbit == 0; }
-  void take_lists();
+  void find_wet_types();
 };
 
 }    // namespace LAMMPS_NS

@@ -22,7 +22,7 @@ ALSO_KOKKOS = {
     "compute": ["foam/bubble"],
 }
 BASE_ALONE = {
-    "pair": ["liquid/sph"], "fix": ["liquid/flow", "bubble/flow"],
+    "pair": ["liquid/sph"], "fix": ["liquid/flow", "bubble/flow", "bubble/sparger"],
     "compute": ["bubble/collision", "liquid/particle", "bubble/flow"],
 }
 STYLES = {kind: names + BASE_ALONE[kind] for kind, names in ALSO_KOKKOS.items()}

@@ -1,0 +1,146 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   This software is distributed under the GNU General Public License.
+   Wet-foam package: see the README file of the package.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_FIX_LIQUID_FLOW_LOOPS_H
+#define LMP_FIX_LIQUID_FLOW_LOOPS_H
+
+#include "fix_bubble_flow.h"
+#include "fix_liquid_flow.h"
+#include "foam_reduce.h"
+
+#include "atom.h"
+#include "update.h"
+
+#include <type_traits>
+
+// The loops of a step of the liquid, in the order of liquid_operators.h, for each space
+
+namespace LAMMPS_NS {
+
+template <class Space> void FixLiquidFlow::advance_in(Space &space)
+{
+  using B = typename Space::Bubbles;
+  space.for_each(atom->nlocal, Liquid::Advance<B>{space.bubbles(), walls, update->dt});
+}
+
+template <class Space> void FixLiquidFlow::look_in(Space &space)
+{
+  using B = typename Space::Bubbles;
+  speeds = space.template totals<Liquid::SpeedTotals>(
+      atom->nlocal, Liquid::LookAtSpeeds<B>{space.bubbles(), set});
+}
+
+template <class Space> void FixLiquidFlow::move_in(Space &space, double dt)
+{
+  using B = typename Space::Bubbles;
+  speeds = space.template totals<Liquid::SpeedTotals>(
+      atom->nlocal, Liquid::Move<B>{space.bubbles(),
+                                    walls,
+                                    columns_in(space),
+                                    set,
+                                    space.column(state, PRESSURE),
+                                    {space.column(state, ACCELERATION),
+                                     space.column(state, ACCELERATION + 1),
+                                     space.column(state, ACCELERATION + 2)},
+                                    space.column(state, SMOOTHING),
+                                    dt});
+}
+
+template <class Space, class Rows>
+void FixLiquidFlow::gather_in(Space &space, const Rows &near, double dt)
+{
+  using namespace Liquid;
+  using B = typename Space::Bubbles;
+  const auto list = near.rows(PairLiquidSPH::LIQUID);
+  using List = std::remove_const_t<decltype(list)>;
+  const auto loop = loop_in(space, list);
+  const Columns &c = loop.c;
+  const int nrows = near.nrows(PairLiquidSPH::LIQUID);
+
+  space.for_all(atom->nlocal + atom->nghost, WithoutGas{c, set});
+  if (gas) {
+    const auto bubbles = loop_in(space, near.rows(PairLiquidSPH::BUBBLES_OF_LIQUID));
+    space.for_all(nrows, TakeGas<B, List>{bubbles, space.column(state, SMOOTHING)});
+    send(work, ALPHA, 2);
+  }
+  space.for_all(nrows, Gather<B, List>{loop});
+  if (set.shifts || gas) {
+    send(work, RAW, 3);
+    space.for_all(nrows, Smooth<B, List>{loop, gas != nullptr});
+  }
+  if (gas) {
+    space.for_each(atom->nlocal, Curl{c});
+    send(work, VORTEX, 5);
+    send(state, ACCELERATION, 3);
+    if (gas->set.surface) send(work, SURFACE, 4);    // and normals
+    double *const acceleration[3] = {space.column(state, ACCELERATION),
+                                     space.column(state, ACCELERATION + 1),
+                                     space.column(state, ACCELERATION + 2)};
+    gas->exchange_in(space, loop, near.rows(PairLiquidSPH::LIQUID_OF_BUBBLES),
+                     near.nrows(PairLiquidSPH::LIQUID_OF_BUBBLES), acceleration, dt);
+    send(gas->work, REACTION, AT_BUBBLES - REACTION);
+    space.for_all(nrows, TakeReaction<B, List>{loop.b, near.rows(PairLiquidSPH::BUBBLES_OF_LIQUID),
+                                               c, gas->columns_in(space)});
+  }
+  totals = space.template totals<GatherTotals>(atom->nlocal, Account{c, set});
+}
+
+// dot products and ghosts for the solver
+
+template <bool BY_ROWS, class Space>
+Liquid::Solved FixLiquidFlow::solve_in(Space &space, const Liquid::Matrix<BY_ROWS> &matrix)
+{
+  using namespace Liquid;
+  const int n = atom->nlocal;
+  const Vectors w{space.column(work, SOLUTION), space.column(vectors, 0), space.column(vectors, 1),
+                  space.column(vectors, 2),     space.column(vectors, 3), space.column(vectors, 4),
+                  space.column(vectors, 5),     space.column(vectors, 6)};
+  auto ghosts = [&](const double *vector) {
+    if (vector == w.x) send(work, SOLUTION, 1);
+    if (vector == w.p) send(vectors, 3, 1);
+    if (vector == w.s) send(vectors, 5, 1);
+  };
+  auto all = [&](const auto &functor) {
+    return foam_sum(space.template totals<Products>(n, functor), world);
+  };
+  auto each = [&](const auto &functor) {
+    space.for_each(n, functor);
+  };
+  return solve(matrix, w, tolerance, most_iterations, Means{ghosts, all, each});
+}
+
+template <class Space, class Rows, class Room>
+void FixLiquidFlow::project_in(Space &space, const Rows &near, Room &room, double dt)
+{
+  using namespace Liquid;
+  using B = typename Space::Bubbles;
+  const auto list = near.rows(PairLiquidSPH::LIQUID);
+  using List = std::remove_const_t<decltype(list)>;
+  const auto loop = loop_in(space, list);
+  const int nrows = near.nrows(PairLiquidSPH::LIQUID);
+  send(work, DIFFUSES, 1);
+  space.for_all(nrows, Predict<B, List>{loop, dt});
+  send(work, STAR, 3);
+
+  const auto matrix = room.matrix(atom->nlocal, near.widest());
+  using M = std::remove_const_t<decltype(matrix)>;
+  const double *const before = space.column(state, PRESSURE);
+  space.for_all(atom->nlocal, StartSolution{before, space.column(work, SOLUTION)});
+  space.for_all(
+      nrows, Assemble<B, List, M>{loop, matrix, before, space.column(vectors, 0), dt});
+  solved = solve_in(space, matrix);
+  check(solved);
+  iterations_in_all += solved.iterations;
+  send(work, SOLUTION, 1);
+  space.for_all(nrows, Project<B, List>{loop});
+}
+
+}    // namespace LAMMPS_NS
+
+#endif

@@ -1,0 +1,141 @@
+"""Bubbles in a resolved liquid: how they rise, are born, break, and burst at the surface; on any number of ranks."""
+
+import numpy as np
+import pytest
+
+BETA = 800.0
+
+TANK = """
+units         lj
+atom_style    sphere 1
+boundary      p p f
+comm_modify   vel yes
+variable      dr equal 1.0/{n}
+lattice       sc $(1/v_dr^3) origin 0.5 0.5 0.5
+region        box block 0 {width} 0 {width} 0 1.4 units box
+region        full block 0 {width} 0 {width} 0 1 units box
+create_box    2 box
+create_atoms  1 region full
+{create}
+group         water type 1
+group         gas type 2
+set           group water diameter ${{dr}} density $(6/PI)
+set           group gas diameter {diameter} density $(1/{BETA})
+{velocity}
+pair_style    liquid/sph ${{dr}}
+pair_coeff    * *
+neighbor      $(0.6*v_dr) bin
+neigh_modify  one 10000 page 200000
+fix           l water liquid/flow {Re} 1.0 les none wall zlo slip dtmax {dt}
+fix           b gas bubble/flow {We} {BETA} {gas}
+"""
+
+
+def tank(n=10, width=0.8, create="", diameter=0.02, velocity="", Re=1000, dt=0.02, We=1e4, gas="surface no", more=""):
+    return TANK.format(n=n, width=width, create=create, diameter=diameter, velocity=velocity, Re=Re, dt=dt, We=We,
+                       gas=gas, BETA=BETA) + more
+
+
+def one(x, y, z):
+    return f"create_atoms 2 single {x} {y} {z} units box"
+
+
+PRECISE = "thermo_modify norm no format float %.17g\n"
+
+
+@pytest.mark.parametrize("substep", ["yes", "no"])
+def test_terminal_velocity(base_lmp, substep):
+    """Drag balances buoyancy at the speed that the law says, relative to the liquid where the bubble is. It gets
+    there at the rate of the drag, so after 40 of these times to e^-40; what is left is how the flow that it leads along
+    changes in a step."""
+    a, Re = 0.01, 1000
+    frame = base_lmp(tank(create=one(0.41, 0.37, 0.3), gas=f"surface no lift no substep {substep}", more="""
+compute d gas bubble/flow ulx uly ulz fdz fgz
+dump d gas custom 30 dump id vx vy vz c_d[*]
+dump_modify d format float %.17g
+run 30
+"""), files={}).dump("dump")[-1]
+    relative = frame["vz"][0] - frame["c_d[3]"][0]
+    Re_b = 2 * a * relative * Re
+    coefficient = 24 / Re_b * (1 + 0.15 * Re_b**0.687)
+    drag = 0.5 * coefficient * BETA * np.pi * a**2 * relative**2
+    buoyancy = (BETA - 1) * 4 / 3 * np.pi * a**3
+    assert drag == pytest.approx(buoyancy, rel=0.01)
+    assert frame["c_d[5]"][0] == pytest.approx(buoyancy, rel=1e-12)
+
+
+SPARGER = "fix s gas bubble/sparger 0.4 0.4 0.25 0.1 1e-3 normal 0.012 0.004 0.006 seed 3\n"
+
+
+@pytest.mark.parametrize("gas", ["surface no", "surface yes langevin 7"])
+def test_births_do_not_depend_on_ranks(base_lmp, gas):
+    """IDs, sizes and places of all bubbles. Sums over neighbors come in another order: rounding, which grows in ten
+    steps by less than 10^3."""
+    frames = {}
+    for ranks in 1, 2, 4:
+        result = base_lmp(tank(gas=gas, more=SPARGER + """
+dump d gas custom 10 dump id x y z vx vy vz radius
+dump_modify d sort id format float %.17g
+thermo_style custom step f_b[1] f_b[2] f_s[1] f_s[2]
+run 10
+"""), ranks=ranks)
+        frames[ranks] = result.dump("dump")[-1]
+        table = result.thermo[0]
+    assert len(frames[1]) > 10
+    assert table["f_s[1]"][-1] == len(frames[1]) == table["f_b[1]"][-1]
+    assert table["f_s[2]"][-1] == pytest.approx(np.sum(4 / 3 * np.pi * frames[1]["radius"]**3), rel=1e-5)    # as printed
+    for ranks in 2, 4:
+        assert (frames[ranks]["id"] == frames[1]["id"]).all()
+        assert frames[ranks]["radius"] == pytest.approx(frames[1]["radius"], rel=1e-15)
+        for name in ("x", "y", "z", "vx", "vy", "vz"):
+            assert frames[ranks][name] == pytest.approx(frames[1][name], rel=0, abs=1e-11), name
+
+
+def test_gas_of_a_sparger(base_lmp):
+    """All gas that has flowed in by the last birth is in bubbles: what is owed is less than one of them."""
+    result = base_lmp(tank(more="fix s gas bubble/sparger 0.4 0.4 0.25 0.1 1e-4 radius 0.01\n"
+                           "thermo_style custom step time f_s[1] f_s[2]\n" + PRECISE + "thermo 1\nrun 8\n"))
+    table, V = result.thermo[0], 4 / 3 * np.pi * 0.01**3
+    # bubbles of the last step are born in the next
+    assert table["f_s[2]"][1:] == pytest.approx(V * np.floor(1e-4 * table["Time"][:-1] / V + 1e-9), rel=1e-12)
+
+
+BREAKING = "variable ux atom 20*z\nvelocity water set v_ux 0 0"
+
+
+@pytest.mark.parametrize("ranks", [1, 2, 4])
+def test_breaking_keeps_gas(base_lmp, ranks):
+    """In a strong shear bubbles break, again and again; the gas stays, and so does their mass."""
+    create = "create_atoms 2 random 20 771 full overlap 0.02 maxtry 1000"
+    result = base_lmp(tank(create=create, diameter=0.04, velocity=BREAKING, We=1e6, dt=0.002,
+                           gas="surface no breakup 5", more="""
+variable m atom mass
+compute m gas reduce sum v_m
+thermo_style custom step f_b[1] f_b[2] f_b[4] c_m
+""" + PRECISE + """thermo 80
+run 80
+dump d gas custom 1 dump id radius
+dump_modify d sort id format float %.17g
+run 0
+"""), ranks=ranks)
+    table = result.thermo[0]
+    assert table["f_b[1]"][0] == 20 and table["f_b[4]"][-1] > 5
+    assert table["f_b[1]"][-1] == 20 + table["f_b[4]"][-1]
+    assert table["f_b[2]"][-1] == pytest.approx(20 * 4 / 3 * np.pi * 0.02**3, rel=1e-13)
+    assert table["c_m"][-1] == pytest.approx(table["c_m"][0], rel=1e-13)
+    assert len(np.unique(result.dump("dump")[0]["id"])) == table["f_b[1]"][-1]
+
+
+def test_bursting_at_the_surface(base_lmp):
+    """A bubble comes to the surface, is slowed down, and bursts there: its gas is gone, and counted. Without the
+    rules of the surface it flies away."""
+    result = base_lmp(tank(create=one(0.41, 0.37, 0.85), gas="surface yes", more="""
+compute top gas reduce max z
+thermo_style custom step time f_b[1] f_b[5] f_b[6] c_top
+thermo 1
+run 700
+"""))
+    table = result.thermo[0]
+    assert table["f_b[1]"][0] == 1 and table["f_b[1]"][-1] == 0 and table["f_b[5]"][-1] == 1
+    assert table["f_b[6]"][-1] == pytest.approx(4 / 3 * np.pi * 0.01**3, rel=1e-5)    # as printed
+    assert 0.85 < table["c_top"][table["f_b[1]"] == 1].max() < 1.1
