@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import csv
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 import re
@@ -46,6 +47,25 @@ class Place:
     def write(self, rows: list[dict[str, object]], name: str) -> None:
         """A table of rows with the same keys. Text goes as it is, numbers with all digits."""
         table.write({key: [row[key] for row in rows] for key in rows[0]}, self.out / f"{name}.csv")
+
+    def read(self, name: str) -> list[dict[str, str]]:
+        """The rows of a table that is there, or none."""
+        path = self.out / f"{name}.csv"
+        if not path.exists():
+            return []
+        with path.open(newline="") as file:
+            return list(csv.DictReader(file))
+
+    def merge(self, rows: list[dict[str, object]], name: str, order: Sequence[str]) -> list[dict[str, object]]:
+        """As write(), of rows that begin with the name of a run. Those of other runs, which were made elsewhere and
+        stand in the table that is there, stay. So runs of a night need not be in one place."""
+        key = next(iter(rows[0]))
+        ours = {row[key] for row in rows}
+        kept = [row for row in self.read(name) if row[key] not in ours and list(row) == list(rows[0])]
+        places = {run: place for place, run in enumerate(order)}
+        merged = sorted([*kept, *rows], key=lambda row: places.get(str(row[key]), len(places)))    # stable
+        self.write(merged, name)
+        return merged
 
 
 @dataclass(frozen=True)
@@ -96,6 +116,13 @@ def minutes(directory: Path) -> float:
     return total / 60
 
 
+def minutes_of(place: Place, name: str) -> float:
+    """Of a run that is here, or that stands in the table of runs."""
+    if place.has(name):
+        return minutes(place.run(name))
+    return next((float(row["minutes"] or 0) for row in place.read("runs") if row["run"] == name), 0.0)
+
+
 def end_of(directory: Path) -> tuple[int, float, int]:
     """Step, tau and bubbles at the end of a complete run."""
     text = (directory / "complete").read_text()
@@ -113,12 +140,9 @@ def compare(place: Place, results: list[Result], command: str) -> None:
     """Put results into summary.csv, in the place of older ones of the same figures."""
     path = place.out / "summary.csv"
     head = ["figure", "published", "ours", "command", "minutes"]
-    rows = {}
-    if path.exists():
-        with path.open(newline="") as file:
-            rows = {row["figure"]: row for row in csv.DictReader(file)}
+    rows = {row["figure"]: row for row in place.read("summary")}
     for one in results:
-        spent = shown_minutes([minutes(place.run(name)) for name in one.names])
+        spent = shown_minutes([minutes_of(place, name) for name in one.names])
         rows[one.figure] = dict(zip(head, (one.figure, one.published, one.ours, f":code:`{command}`", spent)))
     with path.open("w", newline="") as file:
         writer = csv.DictWriter(file, head, lineterminator="\n")

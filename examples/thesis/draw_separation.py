@@ -40,11 +40,12 @@ class Survey:
 
 
 def draw(place: Place, names: list[str]) -> list[Result]:
-    surveys = [survey(place, name) for name in names]
-    place.write([{"run": label_of(one.name), **row} for one in surveys for row in one.rows], "separation")
-    place.write([line for one in surveys for line in shown(one)], "separation-table")
-    place.write([line for one in surveys for tau, frame, _ in one.states[:1] for line in gas(one.name, tau, frame)],
-                "separation-gas-table")
+    surveys, order = [survey(place, name) for name in names], separation_figures.ORDER
+    rows = place.merge([{"run": label_of(one.name), **row} for one in surveys for row in one.rows], "separation", order)
+    place.merge([line for one in surveys for line in shown(one)], "separation-table", order)
+    place.merge([line for one in surveys for tau, frame, _ in one.states[:1] for line in gas(one.name, tau, frame)],
+                "separation-gas-table", order)
+    separation_figures.draw_spread(place, rows)
     separation_figures.draw(place, surveys)
     return results(place, names, surveys)
 
@@ -143,18 +144,28 @@ def nearest(one: Survey, tau: float) -> dict[str, float]:
 
 
 def results(place: Place, names: list[str], surveys: list[Survey]) -> list[Result]:
-    ours = [f"{label_of(one.name)}: {separated(one)}" for one in surveys]
-    slopes = []
+    found = []
     for one, series in zip(surveys, tables(place, names)):
         fit = growth.fit([series], *late([series]))
-        slopes.append(f"{label_of(one.name)}: slope {with_error(fit.beta, fit.beta_error)}")
+        found.append({"run": label_of(one.name), "separated": separated(one),
+                      "slope": f"slope {with_error(fit.beta, fit.beta_error)}", "paths": paths_said(one),
+                      "rates": rates_said(one), "energies": energies_said(one)})
+    rows = place.merge(found, "separation-said", separation_figures.ORDER)
+    seed = names[0].rsplit("-", 1)[1]
+    all_names = [f"large{str(row['run']).replace(' ', '-')}-{seed}" for row in rows]
+
+    def said(key: str) -> str:
+        return "; ".join(f"{row['run']}: {row[key]}" for row in rows if row[key])
+
     return [
         Result("4.6 to 4.9", "the local gas fraction deviates from τ = 60 on; gaps at φ = 0.851, none at 0.876",
-               "; ".join(ours), names),
-        Result("4.10", "exponent of these foams", "; ".join(slopes), names),
-        Result("4.11 and 4.12", "paths of bubbles", paths_said(surveys), names),
-        Result("4.13", "rate against radius, by quartile of the energy", rates_said(surveys), names),
-        Result("4.14", "map of the energy in time", energies_said(surveys), names),
+               said("separated"), all_names),
+        Result("4.10", "exponent of these foams", said("slope"), all_names),
+        Result("4.11 and 4.12", "paths of bubbles", said("paths"), all_names),
+        Result("4.13", "rate against radius, by quartile of the energy",
+               "rate of the quartile of most energy less that of least, at the mean radius, in K/⟨R⟩: " + said("rates"),
+               all_names),
+        Result("4.14", "map of the energy in time", "mean energy of a bubble: " + said("energies"), all_names),
     ]
 
 
@@ -172,30 +183,22 @@ def separated(one: Survey) -> str:
                    f"{100 * gaps['gaps']:.1f} % of the area")
 
 
-def paths_said(surveys: list[Survey]) -> str:
-    parts = []
-    for one in surveys:
-        if len(one.tracks) > 1:
-            length = np.linalg.norm(one.tracks[-1][2], axis=1) / one.start.radius.mean()
-            parts.append(f"{label_of(one.name)}: displacement {np.median(length):.1f} (median) and {length.max():.0f} "
-                         f"(largest) mean radii of the first state, from τ = {one.tracks[0][0]:.0f} to "
-                         f"{one.tracks[-1][0]:.0f}")
-    return "; ".join(parts)
+def paths_said(one: Survey) -> str:
+    if len(one.tracks) < 2:
+        return ""
+    length = np.linalg.norm(one.tracks[-1][2], axis=1) / one.start.radius.mean()
+    return (f"displacement {np.median(length):.1f} (median) and {length.max():.0f} (largest) mean radii of the first "
+            f"state, from τ = {one.tracks[0][0]:.0f} to {one.tracks[-1][0]:.0f}")
 
 
-def energies_said(surveys: list[Survey]) -> str:
-    return "mean energy of a bubble: " + "; ".join(
-        f"{label_of(one.name)}: " + ", ".join(f"{frame['energy'].mean():.2g} (τ = {tau:.0f})"
-                                              for tau, frame, _ in one.states) for one in surveys)
+def energies_said(one: Survey) -> str:
+    return ", ".join(f"{frame['energy'].mean():.2g} (τ = {tau:.0f})" for tau, frame, _ in one.states)
 
 
-def rates_said(surveys: list[Survey]) -> str:
+def rates_said(one: Survey) -> str:
     """Rate of the quartile of most energy less that of least, for bubbles of the mean size."""
-    parts = []
-    for one in surveys:
-        columns = rates.medians(one.rates, np.array([0.9, 1.1]), within=True)
-        value = {int(q): (r, e) for q, r, e in zip(columns["quartile"], columns["rate"], columns["error"])}
-        if {1, 4} <= set(value):
-            difference = with_error(value[4][0] - value[1][0], float(np.hypot(value[1][1], value[4][1])))
-            parts.append(f"{label_of(one.name)}: {difference}")
-    return "rate of the quartile of most energy less that of least, at the mean radius, in K/⟨R⟩: " + "; ".join(parts)
+    columns = rates.medians(one.rates, np.array([0.9, 1.1]), within=True)
+    value = {int(q): (r, e) for q, r, e in zip(columns["quartile"], columns["rate"], columns["error"])}
+    if not {1, 4} <= set(value):
+        return ""
+    return with_error(value[4][0] - value[1][0], float(np.hypot(value[1][1], value[4][1])))

@@ -5,8 +5,9 @@
     python3 plot.py DIR --full --out FOLDER       of runs at the thesis' sizes
     python3 plot.py DIR --full --figure exponents avalanches
 
-Runs that are not complete are left out, so figures can be drawn at any time. Each figure is written as PNG and PDF,
-with its numbers as CSV. runs.csv has what each run took, summary.csv compares with what the thesis has.
+Runs that are not complete are left out, so figures can be drawn at any time. Tables keep what stands there of the
+separation in runs that are not in DIR, so these long runs may be made in several places. Each figure is written as PNG
+and PDF, with its numbers as CSV. runs.csv has what each run took, summary.csv compares with what the thesis has.
 """
 from __future__ import annotations
 
@@ -37,6 +38,7 @@ def draw(directory: Path, figures: dict[str, list[str]], out: Path | None = None
 
 def list_runs(place: Place, wanted) -> None:
     """runs.csv: each run of run.py, with what it took, or that it is not there yet."""
+    known = {row["run"]: row for row in place.read("runs")}
     rows = []
     for run in wanted:
         row = {"run": run.name, "gas fraction": f"{run.phi:.3f}", "κ": f"{run.kappa:g}", "seed": f"{run.seed}",
@@ -44,8 +46,11 @@ def list_runs(place: Place, wanted) -> None:
         if place.has(run.name):
             steps, tau, _ = end_of(place.run(run.name))
             row |= {"steps": f"{steps}", "last τ": f"{tau:.0f}", "minutes": f"{minutes(place.run(run.name)):.0f}"}
-        else:
+        else:    # it may have been done elsewhere
             row |= {"steps": "not yet run", "last τ": "", "minutes": ""}
+            before = known.get(run.name, row)
+            if all(before[key] == row[key] for key in ("gas fraction", "κ", "seed", "bubbles")):
+                row = dict(before)
         rows.append(row)
     place.write(rows, "runs")
 

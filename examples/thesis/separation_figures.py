@@ -9,26 +9,27 @@ from lammps_foam.analysis import figure, growth, rates
 from lammps_foam.analysis.read import Frame
 
 MARKS = "os^Dv<"
-MOST = ("0.851", "0.851 diluted", "0.876")    # runs with a panel of their own where all do not fit
+MOST = ("0.851", "0.851 diluted", "0.876")    # pictures of these and of the others are apart
+ORDER = (*MOST, "0.840", "0.852", "0.865")
 
 
 def draw(place: Place, surveys) -> None:
-    draw_spread(place, surveys)
-    draw_states(place, surveys[0])
-    draw_maps(place, surveys)
-    draw_growth(place, surveys)
-    draw_paths(place, surveys)
-    draw_rates(place, surveys)
-    draw_energies(place, surveys[0])
+    """Pictures of the runs that are here."""
+    most = [one for one in surveys if label_of(one.name) in MOST]
+    if most:
+        draw_states(place, most[0])
+        draw_energies(place, most[0])
+    for group, end in ((most, ""), ([one for one in surveys if one not in most], "-others")):
+        if group:
+            draw_maps(place, group, f"thesis-maps{end}")
+            draw_growth(place, group, f"thesis-growth{end}")
+            draw_paths(place, group, f"thesis-paths{end}")
+            draw_rates(place, group, f"thesis-rates{end}")
 
 
 def label_of(name: str) -> str:
     """0.851 diluted of large0.851-diluted-1995."""
     return name.removeprefix("large").rsplit("-", 1)[0].replace("-", " ")
-
-
-def most_wanted(surveys):
-    return [one for one in surveys if label_of(one.name) in MOST] or surveys[:3]
 
 
 def whole_box(ax, frame: Frame) -> None:
@@ -38,12 +39,13 @@ def whole_box(ax, frame: Frame) -> None:
 
 # ------------------------------------------------------------------ against tau
 
-def draw_spread(place: Place, surveys) -> None:
-    """Spread with what it would be without clustering (dotted), clustering, gaps."""
+def draw_spread(place: Place, table) -> None:
+    """Spread with what it would be without clustering (dotted), clustering, gaps, of the rows of separation.csv."""
     fig, axes = figure.panels(1, 3, width=2.7, height=2.4)
-    for number, one in enumerate(surveys):
-        rows = {key: np.array([row[key] for row in one.rows if row["tau"] > 0]) for key in one.rows[0]}
-        shape = {"fmt": MARKS[number % 6] + "-", "color": f"C{number % 7}", "lw": 0.8, "label": label_of(one.name)}
+    for number, run in enumerate(dict.fromkeys(row["run"] for row in table)):
+        mine = [row for row in table if row["run"] == run and float(row["tau"]) > 0]
+        rows = {key: np.array([float(row[key] or "nan") for row in mine]) for key in mine[0] if key != "run"}
+        shape = {"fmt": MARKS[number % 6] + "-", "color": f"C{number % 7}", "lw": 0.8, "label": run}
         axes[0].errorbar(rows["tau"], rows["spread"], rows["spread_error"], **shape)
         axes[0].plot(rows["tau"], rows["dealt"], ":", color=shape["color"], lw=0.8)
         axes[1].errorbar(rows["tau"], rows["clustering"], rows["clustering_error"], **shape)
@@ -56,7 +58,7 @@ def draw_spread(place: Place, surveys) -> None:
     place.save(fig, "thesis-separation", dpi=160)
 
 
-def draw_growth(place: Place, surveys) -> None:
+def draw_growth(place: Place, surveys, name: str) -> None:
     """Energy, and the exponent in half a decade of tau."""
     fig, (left, right) = figure.panels(1, 2, width=3.0, height=2.4)
     for number, one in enumerate(surveys):
@@ -72,7 +74,7 @@ def draw_growth(place: Place, surveys) -> None:
     right.set(xscale="log", xlabel=figure.TAU, ylabel="exponent in half a decade")
     for value in (1 / 3, 1 / 2):
         right.axhline(value, color="0.7", lw=0.8, zorder=0)
-    place.save(fig, "thesis-growth", dpi=160)
+    place.save(fig, name, dpi=160)
 
 
 # ------------------------------------------------------------------ states
@@ -95,7 +97,7 @@ def draw_states(place: Place, one) -> None:
     place.save(fig, "thesis-states", dpi=110, colors=12)
 
 
-def draw_maps(place: Place, surveys) -> None:
+def draw_maps(place: Place, surveys, name: str) -> None:
     """Gas fraction of small cells, a line for each run."""
     columns = max(len(one.states) for one in surveys)
     fig, axes = figure.panels(len(surveys), columns, width=1.9, height=2.1)
@@ -106,7 +108,7 @@ def draw_maps(place: Place, surveys) -> None:
             ax.set(title=rf"{label_of(one.name)}, $\tau$ = {tau:.0f}")
             whole_box(ax, frame)
     fig.colorbar(drawn, ax=axes, shrink=0.7, label="local gas fraction")
-    place.save(fig, "thesis-maps", dpi=90, colors=48)
+    place.save(fig, name, dpi=90, colors=48)
 
 
 def draw_energies(place: Place, one) -> None:
@@ -124,9 +126,9 @@ def draw_energies(place: Place, one) -> None:
 
 # ------------------------------------------------------------------ bubbles
 
-def draw_paths(place: Place, surveys) -> None:
+def draw_paths(place: Place, surveys, name: str) -> None:
     """Ways of the bubbles that are left at the end of the range; mean path and displacement against tau."""
-    shown = [one for one in most_wanted(surveys) if len(one.tracks) > 1]
+    shown = [one for one in surveys if len(one.tracks) > 1]
     fig, axes = figure.panels(1, len(shown) + 1, width=2.7, height=2.5)
     for ax, one in zip(axes, shown):
         drawn = draw_tracks(ax, one)
@@ -140,7 +142,7 @@ def draw_paths(place: Place, surveys) -> None:
     axes[-1].set(xscale="log", yscale="log", xlabel=figure.TAU,
                  ylabel=r"path, displacement $/\,\langle R_\mathrm{in}\rangle$")
     axes[-1].legend()
-    place.save(fig, "thesis-paths", dpi=130, colors=64)
+    place.save(fig, name, dpi=130, colors=64)
 
 
 def draw_tracks(ax, one) -> LineCollection:
@@ -158,9 +160,9 @@ def draw_tracks(ax, one) -> LineCollection:
     return lines
 
 
-def draw_rates(place: Place, surveys) -> None:
+def draw_rates(place: Place, surveys, name: str) -> None:
     """Rate of growth against radius, for each quartile of the energy among bubbles of like radius."""
-    shown = [one for one in most_wanted(surveys) if one.rates]
+    shown = [one for one in surveys if one.rates]
     fig, axes = figure.panels(1, max(len(shown), 1), width=2.8, height=2.4)
     for ax, one in zip(axes, shown):
         columns = rates.medians(one.rates, np.arange(0.2, 2.6, 0.2), within=True)
@@ -172,4 +174,4 @@ def draw_rates(place: Place, surveys) -> None:
         ax.set(xlabel=r"$R/\langle R\rangle$", title=label_of(one.name))
     axes[0].set(ylabel=r"median of $\dot R\,\langle R\rangle / K$")
     axes[0].legend()
-    place.save(fig, "thesis-rates", dpi=160)
+    place.save(fig, name, dpi=160)

@@ -83,7 +83,8 @@ run 10
         table = result.thermo[0]
     assert len(frames[1]) > 10
     assert table["f_s[1]"][-1] == len(frames[1]) == table["f_b[1]"][-1]
-    assert table["f_s[2]"][-1] == pytest.approx(np.sum(4 / 3 * np.pi * frames[1]["radius"]**3), rel=1e-5)    # as printed
+    volume = np.sum(4 / 3 * np.pi * frames[1]["radius"]**3)
+    assert table["f_s[2]"][-1] == pytest.approx(volume, rel=1e-5)    # as printed
     for ranks in 2, 4:
         assert (frames[ranks]["id"] == frames[1]["id"]).all()
         assert frames[ranks]["radius"] == pytest.approx(frames[1]["radius"], rel=1e-15)
