@@ -18,6 +18,7 @@
 #include "modify.h"
 #include "update.h"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -62,6 +63,15 @@ FixBubbleFlow::FixBubbleFlow(LAMMPS *lmp, int narg, char **arg) : FixFoamTravell
                      turbulence_seed = v.count();
                      set.turbulence = true;
                    }},
+                  {"entrain",
+                   [&](const Value &v) {
+                     entrain_seed = v.count();
+                     entrains = true;
+                   }},
+                  {"type",
+                   [&](const Value &v) {
+                     born_type = v.integer(1, atom->ntypes);
+                   }},
                   {"breakup", [&](const Value &v) {
                      breakup_seed = v.count();
                      set.breaks = true;
@@ -98,6 +108,11 @@ void FixBubbleFlow::init()
   const FixLiquidFlow *const liquid = FixLiquidFlow::of(lmp);
   if (!liquid) error->all(FLERR, "Fix bubble/flow needs fix liquid/flow");
   set.Fr = liquid->froude();
+  if (entrains && born_type > atom->ntypes)
+    error->all(FLERR,
+               "Fix bubble/flow: there is no type {} for bubbles that are entrained: keyword "
+               "type says which",
+               born_type);
 }
 
 void FixBubbleFlow::setup(int)
@@ -124,6 +139,7 @@ void FixBubbleFlow::set_arrays(int i)    // a new bubble
 void FixBubbleFlow::end_of_step()
 {
   double mine = events.gone + events.broken, all;
+  if (entrains) mine += FixLiquidFlow::of(lmp)->entraining();
   MPI_Allreduce(&mine, &all, 1, MPI_DOUBLE, MPI_MAX, world);
   if (all > 0.0) next_reneighbor = update->ntimestep + 1;
 }
@@ -133,6 +149,7 @@ void FixBubbleFlow::pre_exchange()
   if (next_reneighbor != update->ntimestep) return;
   if (set.breaks) break_up();
   remove_burst();
+  if (entrains) entrain();
 }
 
 void FixBubbleFlow::remove_burst()
@@ -145,6 +162,56 @@ void FixBubbleFlow::remove_burst()
     burst_volume += Liquid::bubble_volume(atom->radius[i]);
   }
   LiquidBirths(lmp, groupbit, density()).remove(gone);
+}
+
+// Bubbles that particles on the surface entrain, by what the last step has dissipated there: at most MOST from a
+// particle, and until so many have been refused.  Sizes are uniform from the smallest to the spacing.
+
+void FixBubbleFlow::entrain()
+{
+  constexpr int MOST = 10, REFUSED = 5;
+  FixLiquidFlow &liquid = *FixLiquidFlow::of(lmp);
+  std::vector<Newborn> bubbles;
+  for (int i = 0; i < atom->nlocal; i++) {
+    const double *const x = atom->x[i], *const v = atom->v[i];
+    if (!(atom->mask[i] & liquid.groupbit) || !(liquid.work[Liquid::SURFACE][i] > 0.0)) continue;
+    const double eps = liquid.work[Liquid::EPSILON][i], alpha = liquid.work[Liquid::ALPHA][i];
+    if (!Liquid::entrains(eps, alpha)) continue;
+    const Liquid::Setting &its = liquid.setting();
+    double energy =
+        Liquid::energy_for_surfaces(set.beta, eps, its.volume_of_liquid(), liquid.last_step());
+    double room = Liquid::room_for_gas(alpha, Liquid::Kernel(liquid.work[Liquid::H][i])(0.0));
+    const auto seed = static_cast<std::uint64_t>(entrain_seed) +
+                      (static_cast<std::uint64_t>(update->ntimestep) << 24);
+    const Foam::Draws draws(seed, atom->tag[i]);
+    const double least = Liquid::smallest_entrained(set.We);
+    int accepted = 0, refused = 0;
+    for (unsigned n = 0; energy > 0.0 && room > 0.0 && accepted < MOST && refused <= REFUSED;
+         n += 5) {
+      const double a = least + (its.dr - least) * draws.uniform(n);
+      const double needed = Liquid::surface_energy(a, set.We), V = Liquid::bubble_volume(a);
+      if (std::min(energy / needed, room / V) < draws.uniform(n + 1)) {
+        refused++;
+        continue;
+      }
+      Newborn child{static_cast<double>(atom->tag[i]),
+                    static_cast<double>(accepted++),
+                    static_cast<double>(born_type),
+                    {},
+                    {},
+                    a};
+      for (int k = 0; k < 3; k++) {
+        child.x[k] = x[k] + (draws.uniform(n + 2 + k) - 0.5) * its.dr;
+        child.v[k] = v[k];
+        liquid.walls.keep(k, child.x[k], child.v[k]);
+      }
+      bubbles.push_back(child);
+      energy -= needed;
+      room -= V;
+      born += 1.0;
+    }
+  }
+  LiquidBirths(lmp, groupbit, density()).create(bubbles);
 }
 
 // A bubble that is too long becomes two, the larger of which it remains, side by side with its centre of mass where it was.

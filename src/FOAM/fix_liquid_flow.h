@@ -56,6 +56,9 @@ class FixLiquidFlow : public FixFoamTravelling {
   FoamColumns state{all_columns, "state of the liquid", STATE, TRAVELS};
   Liquid::Walls walls;
   double froude() const;    // 0: no gravity
+  double last_step() const { return done_dt; }
+  double entraining() const { return totals.entraining; }    // particles of this rank
+  const Liquid::Setting &setting() const { return set; }
   FoamColumns work{all_columns, "columns of the liquid", Liquid::COLUMNS,
                    STAYS};    // of the last evaluation
 

@@ -163,13 +163,14 @@ struct WithoutGas {
 };
 
 struct GatherTotals {
-  Foam::FoamSum surface, volume_of_gas, dissipated;
+  Foam::FoamSum surface, volume_of_gas, dissipated, entraining;
   Foam::FoamMax nu, gas;
   FOAM_FUNCTION void join(const GatherTotals &other)
   {
     surface.join(other.surface);
     volume_of_gas.join(other.volume_of_gas);
     dissipated.join(other.dissipated);
+    entraining.join(other.entraining);
     nu.join(other.nu);
     gas.join(other.gas);
   }
@@ -242,6 +243,7 @@ struct Account {
     all.surface += c(SURFACE, i);
     all.volume_of_gas += V * c(GAS, i);
     all.dissipated += V * c(EPSILON, i);
+    if (c(SURFACE, i) > 0.0 && entrains(c(EPSILON, i), c(ALPHA, i))) all.entraining += 1.0;
     all.nu.raise(nu);
     all.gas.raise(c(GAS, i));
   }

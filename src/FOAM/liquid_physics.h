@@ -285,6 +285,32 @@ template <class Draws> FOAM_FUNCTION double smaller_part(double Lambda, const Dr
   return V;
 }
 
+// Bubbles that a surface entrains [K23 (3.22)]: energy for their surfaces, a part of what is dissipated in a particle, and room
+// for their gas until it is full.  With the density of the liquid as the unit the energy has no beta; the constant was chosen for
+// the product, by entrained volumes, so beta is kept.
+
+inline constexpr double ENTRAINING_EPS = 0.2, ENTRAINED = 0.01;
+FOAM_FUNCTION bool entrains(double eps, double alpha)
+{
+  return eps > ENTRAINING_EPS && alpha > 1.0 / (1.0 + MOST_GAS);
+}
+FOAM_FUNCTION double energy_for_surfaces(double beta, double eps, double liquid_volume, double dt)
+{
+  return ENTRAINED * beta * eps * liquid_volume * dt;
+}
+FOAM_FUNCTION double room_for_gas(double alpha, double w0)
+{
+  return (1.0 + MOST_GAS - 1.0 / alpha) / w0;
+}
+FOAM_FUNCTION double surface_energy(double a, double We)
+{
+  return 4.0 * PI * a * a / We;
+}
+FOAM_FUNCTION double smallest_entrained(double We)
+{
+  return std::pow(We, -0.6) / 40.0;
+}
+
 // Near the surface [K23 (2.21)]: 1 on it; from LEAST_NEARNESS on a bubble meets it, and is slowed down by this part of all
 // other forces
 
