@@ -115,9 +115,9 @@ void FixBubbleFlow::init()
                born_type);
 }
 
-void FixBubbleFlow::setup(int)
+void FixBubbleFlow::setup(int)    // some may have been due since the last run
 {
-  next_reneighbor = -1;
+  next_reneighbor = update->ntimestep + 1;
 }
 
 void FixBubbleFlow::initial_integrate(int)

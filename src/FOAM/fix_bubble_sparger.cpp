@@ -84,9 +84,9 @@ void FixBubbleSparger::init()
   }
 }
 
-void FixBubbleSparger::setup(int)
+void FixBubbleSparger::setup(int)    // some may be owed since the last run
 {
-  next_reneighbor = -1;
+  next_reneighbor = update->ntimestep + 1;
 }
 
 double FixBubbleSparger::radius(double number) const

@@ -80,7 +80,13 @@ FixLiquidFlow::FixLiquidFlow(LAMMPS *lmp, int narg, char **arg) : FixFoamTravell
         }},
        {"shift",
         [&](const Value &v) {
-          set.shifts = v.one_of({"no", "yes"});
+          const int how = v.one_of({"no", "yes", "published"});
+          set.shifts = how != 0;
+          set.slides = how == 1;
+        }},
+       {"gravity",
+        [&](const Value &v) {
+          set.balanced = v.one_of({"published", "balanced"});
         }},
        {"pressure",
         [&](const Value &v) {
@@ -104,7 +110,7 @@ FixLiquidFlow::FixLiquidFlow(LAMMPS *lmp, int narg, char **arg) : FixFoamTravell
   global_freq = 1;
   restart_global = 1;
   maxexchange = STATE;
-  comm_forward = 5;
+  comm_forward = 7;
 
   add_callbacks();
 }

@@ -40,16 +40,16 @@ template <class Space> void FixLiquidFlow::move_in(Space &space, double dt)
 {
   using B = typename Space::Bubbles;
   speeds = space.template totals<Liquid::SpeedTotals>(
-      atom->nlocal, Liquid::Move<B>{space.bubbles(),
-                                    walls,
-                                    columns_in(space),
-                                    set,
-                                    space.column(state, PRESSURE),
-                                    {space.column(state, ACCELERATION),
-                                     space.column(state, ACCELERATION + 1),
-                                     space.column(state, ACCELERATION + 2)},
-                                    space.column(state, SMOOTHING),
-                                    dt});
+      atom->nlocal,
+      Liquid::Move<B>{space.bubbles(),
+                      walls,
+                      columns_in(space),
+                      set,
+                      space.column(state, PRESSURE),
+                      {space.column(state, ACCELERATION), space.column(state, ACCELERATION + 1),
+                       space.column(state, ACCELERATION + 2)},
+                      space.column(state, SMOOTHING),
+                      dt});
 }
 
 template <class Space, class Rows>
@@ -71,8 +71,8 @@ void FixLiquidFlow::gather_in(Space &space, const Rows &near, double dt)
   }
   space.for_all(nrows, Gather<B, List>{loop});
   if (set.shifts || gas) {
-    send(work, RAW, 3);
-    space.for_all(nrows, Smooth<B, List>{loop, gas != nullptr});
+    send(work, SURFACE, 7);    // and raw normals
+    space.for_all(nrows, Smooth<B, List>{loop});
   }
   if (gas) {
     space.for_each(atom->nlocal, Curl{c});
@@ -132,8 +132,7 @@ void FixLiquidFlow::project_in(Space &space, const Rows &near, Room &room, doubl
   using M = std::remove_const_t<decltype(matrix)>;
   const double *const before = space.column(state, PRESSURE);
   space.for_all(atom->nlocal, StartSolution{before, space.column(work, SOLUTION)});
-  space.for_all(
-      nrows, Assemble<B, List, M>{loop, matrix, before, space.column(vectors, 0), dt});
+  space.for_all(nrows, Assemble<B, List, M>{loop, matrix, before, space.column(vectors, 0), dt});
   solved = solve_in(space, matrix);
   check(solved);
   iterations_in_all += solved.iterations;

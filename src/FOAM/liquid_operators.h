@@ -61,7 +61,8 @@ struct Columns {
 struct Setting {
   double dr = 0.0, h0 = 0.0, Re = 0.0, Ma = 0.05;
   double gravity[3] = {0.0, 0.0, 0.0};    // e_g / Fr^2
-  bool shifts = true;
+  bool shifts = true, slides = true;      // slides: shifts go along the surface wherever it is near
+  bool balanced = true;                   // the pressure of a liquid at rest is found exactly
   Closure closure;
 
   FOAM_FUNCTION double volume_of_liquid() const { return dr * dr * dr; }
@@ -249,27 +250,25 @@ struct Account {
   }
 };
 
-// The normal of the surface, by the filter; and what is shifted on it: its tangential part [K23 (3.12), which prints the
-// normal one]
+// The normal of the surface, by the filter; and what is shifted there: its tangential part.  [K23 (3.12)], which prints the
+// normal one, has it on the surface alone.  But particles below it see it, too, and are shifted towards it in each step: the
+// liquid swells, or sinks.  So the tangential part is taken wherever the surface is within reach.
 
 template <class B, class List> struct Smooth : Loop<B, List> {
   static constexpr const char *NAME = "liquid: smooth normals";
-  bool everywhere;    // or on the surface alone
   FOAM_FUNCTION void operator()(int n) const
   {
     const auto row = this->list.row(n);
     const int i = row.i;
     const auto &c = this->c;
-    if (!everywhere && !(c(SURFACE, i) > 0.0)) {
-      for (int k = 0; k < 3; k++) c(NORMAL + k, i) = c(RAW + k, i);
-      return;
-    }
     const Kernel W(c(H, i));
+    bool near = c(SURFACE, i) > 0.0;
     double weights = this->volume(i) * W(0.0), sum[3];
     for (int k = 0; k < 3; k++) sum[k] = weights * c(RAW + k, i);
     this->neighbors_of(row, [&](int j, const double *, double distance, const Image &image) {
       const double f = this->volume(j) * W(distance);
       weights += f;
+      if (this->set.slides && c(SURFACE, j) > 0.0) near = true;
       for (int k = 0; k < 3; k++) sum[k] += f * image.vector(c(RAW + k, j), k);
     });
     double along = 0.0, square = 0.0;
@@ -278,7 +277,7 @@ template <class B, class List> struct Smooth : Loop<B, List> {
       along += normal * c(SHIFT + k, i);
       square += normal * normal;
     }
-    if (!(c(SURFACE, i) > 0.0 && square > 0.0)) return;
+    if (!(near && square > 0.0)) return;
     for (int k = 0; k < 3; k++) c(SHIFT + k, i) -= along / square * c(NORMAL + k, i);
   }
 };
@@ -309,6 +308,9 @@ template <class B, class List> struct Predict : Loop<B, List> {
 
 // Row i of the pressure: lap p - (Ma/dt)^2 p = (1/dt) div u* - (Ma/dt)^2 p_n, divided by its diagonal.  An image of j has p
 // of j and the hydrostatic difference, so that it adds to the entry of j; p = 0 on the surface.
+//
+// Morris' sums give a linear function a Laplacian where particles are in disorder, so that gravity sets a liquid at rest in
+// motion.  Balanced, they are taken of what p has beyond the hydrostatic pressure, p - x . e_g/Fr^2.
 
 template <class B, class List, class Matrix> struct Assemble : Loop<B, List> {
   static constexpr const char *NAME = "liquid: assemble";
@@ -337,8 +339,9 @@ template <class B, class List, class Matrix> struct Assemble : Loop<B, List> {
       for (int k = 0; k < 3; k++) {
         const double d = image.velocity(c(STAR + k, j), k) - star[k];
         for (int a = 0; a < 3; a++) difference[a][k] += V * s * r[a] * d;
-        heads += weight * this->set.gravity[k] *
-                 (image.coordinate(this->b.x(j, k), k) - this->b.x(j, k));
+        const double from =
+            this->set.balanced ? this->b.x(i, k) : image.coordinate(this->b.x(j, k), k);
+        heads += weight * this->set.gravity[k] * (from - this->b.x(j, k));
       }
       if (j != last) {
         close();

@@ -58,7 +58,6 @@ class PairLiquidSPH : public Pair {
   void check_place(const char *style, int kokkosable, int execution_space) const;    // or an error
 
  protected:
-  bool all_liquid() const { return liquidbit == 1 && gasbit == 0; }
   virtual void request_list();
   virtual void take_lists();    // new ones of LAMMPS
 
@@ -73,6 +72,7 @@ class PairLiquidSPH : public Pair {
 
   void allocate();
   void find_wet_types();
+  bool all_liquid() const { return liquidbit == 1 && gasbit == 0; }
 };
 
 }    // namespace LAMMPS_NS
