@@ -84,6 +84,10 @@ FixLiquidFlow::FixLiquidFlow(LAMMPS *lmp, int narg, char **arg) : FixFoamTravell
           set.shifts = how != 0;
           set.slides = how == 1;
         }},
+       {"momentum",
+        [&](const Value &v) {
+          set.published = v.one_of({"standard", "published"});
+        }},
        {"gravity",
         [&](const Value &v) {
           set.balanced = v.one_of({"published", "balanced"});
@@ -102,6 +106,7 @@ FixLiquidFlow::FixLiquidFlow(LAMMPS *lmp, int narg, char **arg) : FixFoamTravell
           longest = v.number(FoamInput::ABOVE, 0.0);
         }}});
 
+  if (set.published) set.balanced = false;    // of its pressure, alpha p, nothing is known at rest
   time_integrate = 1;
   nevery = 1;
   vector_flag = 1;

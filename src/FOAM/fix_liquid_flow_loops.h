@@ -125,7 +125,7 @@ void FixLiquidFlow::project_in(Space &space, const Rows &near, Room &room, doubl
   const auto loop = loop_in(space, list);
   const int nrows = near.nrows(PairLiquidSPH::LIQUID);
   send(work, DIFFUSES, 1);
-  space.for_all(nrows, Predict<B, List>{loop, dt});
+  space.for_all(nrows, Predict<B, List>{loop, space.column(state, SMOOTHING), dt});
   send(work, STAR, 3);
 
   const auto matrix = room.matrix(atom->nlocal, near.widest());

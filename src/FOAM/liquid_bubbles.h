@@ -299,7 +299,7 @@ template <class B> struct AgeBubbles {
 
 template <class B> struct MoveBubbles {
   static constexpr const char *NAME = "liquid: move bubbles";
-  static constexpr int MOST = 100;
+  static constexpr double MOST = 100.0;    // as fmin of a device wants it
   B b;
   BubbleColumns at;
   Setting set;

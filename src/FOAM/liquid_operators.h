@@ -43,8 +43,9 @@ enum Column {
   EPSILON,
   NU_S,
   NU_B,
-  DIFFUSES,      // alpha (1 + nu)
-  BY_BUBBLES,    // M
+  GRAD_ALPHA,                   // of ln alpha, for the momentum as published
+  DIFFUSES = GRAD_ALPHA + 3,    // alpha (1 + nu)
+  BY_BUBBLES,                   // M
   VISCOUS = BY_BUBBLES + 3,
   STAR = VISCOUS + 3,    // u*
   DIV_STAR = STAR + 3,
@@ -63,6 +64,7 @@ struct Setting {
   double gravity[3] = {0.0, 0.0, 0.0};    // e_g / Fr^2
   bool shifts = true, slides = true;      // slides: shifts go along the surface wherever it is near
   bool balanced = true;                   // the pressure of a liquid at rest is found exactly
+  bool published = false;                 // momentum as [K23] prints it: see Predict
   Closure closure;
 
   FOAM_FUNCTION double volume_of_liquid() const { return dr * dr * dr; }
@@ -187,7 +189,7 @@ template <class B, class List> struct Gather : Loop<B, List> {
     const Kernel W(c(H, i));
     const double w0 = W(0.0), Vi = this->volume(i);
     const double u[3] = {this->b.v(i, 0), this->b.v(i, 1), this->b.v(i, 2)};
-    double A[6] = {}, raw[3] = {}, concentration[3] = {}, difference[3][3] = {};
+    double A[6] = {}, raw[3] = {}, concentration[3] = {}, difference[3][3] = {}, of_alpha[3] = {};
     double weights = Vi * w0, filtered[3] = {weights * u[0], weights * u[1], weights * u[2]};
 
     this->neighbors_of(row, [&](int j, const double *r, double distance, const Image &image) {
@@ -202,6 +204,10 @@ template <class B, class List> struct Gather : Loop<B, List> {
         concentration[k] += shifts * r[k];
         A[k] -= s * r[k] * r[k];
         for (int a = 0; a < 3; a++) difference[a][k] += s * r[a] * (image_u - u[k]);
+      }
+      if (this->set.published) {
+        const double d = s * std::log(c(ALPHA, j) / c(ALPHA, i));
+        for (int k = 0; k < 3; k++) of_alpha[k] += d * r[k];
       }
       A[3] -= s * r[0] * r[1];
       A[4] -= s * r[0] * r[2];
@@ -223,6 +229,9 @@ template <class B, class List> struct Gather : Loop<B, List> {
       const double d = u[k] - filtered[k] / weights;
       square += d * d;
     }
+    double along[3];
+    multiply(L, of_alpha, along);
+    for (int k = 0; k < 3; k++) c(GRAD_ALPHA + k, i) = along[k];
     const double S = strain_rate(gradient);
     c(STRAIN, i) = S;
     c(UNRESOLVED, i) = 0.5 * square;
@@ -282,8 +291,14 @@ template <class B, class List> struct Smooth : Loop<B, List> {
   }
 };
 
+// The source prints the momentum [K23 (2.3), (3.14)] as that of alpha u, with q = alpha p in the place of p: u* =
+// (alpha_n u + dt [...]) / alpha, lap q - grad(ln alpha) . grad q - (Ma/dt)^2 q = (alpha/dt) div u* - (Ma/dt)^2 q_n,
+// u = u* - dt (grad q / alpha - e_g/Fr^2).  Then a particle speeds up where bubbles gather although nothing pushes it, and
+// the buoyancy of a plume counts twice.
+
 template <class B, class List> struct Predict : Loop<B, List> {
   static constexpr const char *NAME = "liquid: predict velocities";
+  const double *smoothing;    // of the step before: alpha_n = (h0/h)^3
   double dt;
   FOAM_FUNCTION void operator()(int n) const
   {
@@ -298,9 +313,14 @@ template <class B, class List> struct Predict : Loop<B, List> {
                             laplacian_weight(W.slope_over_r(distance), this->volume(j));
       for (int k = 0; k < 3; k++) sum[k] += weight * (u[k] - image.velocity(this->b.v(j, k), k));
     });
+    double kept = 1.0;
+    if (this->set.published && smoothing[i] > 0.0) {
+      const double ratio = this->set.h0 / smoothing[i];
+      kept = ratio * ratio * ratio / c(ALPHA, i);
+    }
     for (int k = 0; k < 3; k++) {
       c(VISCOUS + k, i) = sum[k] / this->set.Re;
-      c(STAR + k, i) = u[k] + dt / c(ALPHA, i) * (c(VISCOUS + k, i) + c(BY_BUBBLES + k, i)) +
+      c(STAR + k, i) = kept * u[k] + dt / c(ALPHA, i) * (c(VISCOUS + k, i) + c(BY_BUBBLES + k, i)) +
                        dt * this->b.f(i, k) / this->set.volume_of_liquid();
     }
   }
@@ -327,6 +347,12 @@ template <class B, class List, class Matrix> struct Assemble : Loop<B, List> {
     const double star[3] = {c(STAR, i), c(STAR + 1, i), c(STAR + 2, i)};
     const bool surface = c(SURFACE, i) > 0.0;
     const double compressed = this->set.Ma / dt * this->set.Ma / dt;
+    double steep[3] = {}, L[6];    // L grad(ln alpha)
+    for (int k = 0; k < 6; k++) L[k] = c(CORRECTION + k, i);
+    if (this->set.published) {
+      const double of_alpha[3] = {c(GRAD_ALPHA, i), c(GRAD_ALPHA + 1, i), c(GRAD_ALPHA + 2, i)};
+      multiply(L, of_alpha, steep);
+    }
     double difference[3][3] = {}, diagonal = -compressed, heads = 0.0, of_pair = 0.0;
     int count = 0, last = -1;
     auto close = [&]() {
@@ -334,14 +360,17 @@ template <class B, class List, class Matrix> struct Assemble : Loop<B, List> {
       matrix.put(i, count++, last, of_pair);
     };
     this->neighbors_of(row, [&](int j, const double *r, double distance, const Image &image) {
-      const double V = this->volume(j), s = W.slope_over_r(distance),
-                   weight = laplacian_weight(s, V);
+      const double V = this->volume(j), s = W.slope_over_r(distance);
+      const double scale = this->set.published ? c(ALPHA, j) : 1.0;
+      double weight = laplacian_weight(s, V);
+      if (this->set.published)
+        weight += s * V * (steep[0] * r[0] + steep[1] * r[1] + steep[2] * r[2]);
       for (int k = 0; k < 3; k++) {
         const double d = image.velocity(c(STAR + k, j), k) - star[k];
         for (int a = 0; a < 3; a++) difference[a][k] += V * s * r[a] * d;
         const double from =
             this->set.balanced ? this->b.x(i, k) : image.coordinate(this->b.x(j, k), k);
-        heads += weight * this->set.gravity[k] * (from - this->b.x(j, k));
+        heads += weight * scale * this->set.gravity[k] * (from - this->b.x(j, k));
       }
       if (j != last) {
         close();
@@ -354,8 +383,7 @@ template <class B, class List, class Matrix> struct Assemble : Loop<B, List> {
     });
     close();
 
-    double L[6], divergence = 0.0;
-    for (int k = 0; k < 6; k++) L[k] = c(CORRECTION + k, i);
+    double divergence = 0.0;
     for (int k = 0; k < 3; k++) {
       const double column[3] = {difference[0][k], difference[1][k], difference[2][k]};
       double corrected[3];
@@ -363,6 +391,7 @@ template <class B, class List, class Matrix> struct Assemble : Loop<B, List> {
       divergence += corrected[k];
     }
     c(DIV_STAR, i) = divergence;
+    if (this->set.published) divergence *= c(ALPHA, i);
     const bool alone = surface || !(diagonal < 0.0);
     matrix.end(i, alone ? 0 : count, alone ? 1.0 : 1.0 / diagonal);
     right[i] = alone ? 0.0 : (divergence / dt - compressed * before[i] + heads) / diagonal;
@@ -420,10 +449,11 @@ template <class B, class List> struct Project : Loop<B, List> {
     this->neighbors_of(row, [&](int j, const double *r, double distance, const Image &image) {
       const double s = this->volume(j) * W.slope_over_r(distance);
       double difference = c(SOLUTION, j) - p;
+      const double scale = this->set.published ? c(ALPHA, j) : 1.0;
       if (image.axes)
         for (int k = 0; k < 3; k++)
-          difference +=
-              this->set.gravity[k] * (image.coordinate(this->b.x(j, k), k) - this->b.x(j, k));
+          difference += scale * this->set.gravity[k] *
+                        (image.coordinate(this->b.x(j, k), k) - this->b.x(j, k));
       for (int k = 0; k < 3; k++) sum[k] += s * r[k] * difference;
     });
     for (int k = 0; k < 6; k++) L[k] = c(CORRECTION + k, i);
@@ -445,7 +475,8 @@ template <class B> struct Move {
     double square = 0.0;
     for (int k = 0; k < 3; k++) {
       const double before = b.v(i, k), shift = set.shifts ? c(SHIFT + k, i) : 0.0;
-      double u = c(STAR + k, i) - dt * (c(GRAD_P + k, i) - set.gravity[k]);
+      const double gradient = c(GRAD_P + k, i) / (set.published ? c(ALPHA, i) : 1.0);
+      double u = c(STAR + k, i) - dt * (gradient - set.gravity[k]);
       double x = b.place(i, k) + 0.5 * dt * (u - before) + shift;
       acceleration[k][i] = (u - before) / dt;
       walls.keep(k, x, u);

@@ -140,3 +140,55 @@ run 700
     assert table["f_b[1]"][0] == 1 and table["f_b[1]"][-1] == 0 and table["f_b[5]"][-1] == 1
     assert table["f_b[6]"][-1] == pytest.approx(4 / 3 * np.pi * 0.01**3, rel=1e-5)    # as printed
     assert 0.85 < table["c_top"][table["f_b[1]"] == 1].max() < 1.1
+
+
+COLUMN = """
+units         lj
+atom_style    sphere 1
+boundary      p p f
+comm_modify   vel yes
+variable      dr equal 1.0/12
+lattice       sc $(1/v_dr^3) origin 0.5 0.5 0.5
+region        box block 0 1 0 $(6*v_dr) 0 4.2 units box
+region        full block 0 1 0 $(6*v_dr) 0 4 units box
+create_box    2 box
+create_atoms  1 region full
+lattice       sc $(8/v_dr^3) origin 0.5 0.5 0.5
+region        half block 0 0.5 0 $(6*v_dr) 0 4 units box
+create_atoms  2 region half
+group         water type 1
+group         gas type 2
+variable      a equal (0.05*v_dr^3/8*3/4/PI)^(1/3)
+set           group water diameter ${{dr}} density $(6/PI)
+set           group gas diameter $(2*v_a) density $(1/{BETA})
+variable      ut equal sqrt(8/3*v_a/0.44*(1-1/{BETA}))
+velocity      gas set 0 0 ${{ut}} units box
+pair_style    liquid/sph ${{dr}}
+pair_coeff    * *
+neighbor      $(0.6*v_dr) bin
+neigh_modify  one 10000 page 200000
+fix           l water liquid/flow 1e9 1.0 les none ma 0 wall zlo slip dtmax 1e-3 momentum {momentum}
+fix           b gas bubble/flow 1e9 {BETA} lift no virtual no surface no
+compute       c water liquid/particle alpha mz ustarz pz
+dump          d water custom 1 dump id x z vz c_c[*]
+dump_modify   d sort id format float %.17g
+run           0
+"""
+
+
+@pytest.mark.parametrize("momentum, times", [("standard", 1.0), ("published", 2.0)])
+def test_buoyancy_counts_once(base_lmp, momentum, times):
+    """Half of a tall column has bubbles at their terminal speed: their drag is the buoyancy M = c (1 - 1/beta). From rest
+    the halves go apart with M / alpha. The published form has the pressure of alpha p, level across the halves, and
+    counts the buoyancy twice. The column is four times as tall as it is wide, so that its ends matter at mid-height by
+    e^(-2 pi); and c varies over 2 h at the edges of the halves, a third of which are left out."""
+    frame = base_lmp(COLUMN.format(BETA=BETA, momentum=momentum)).dump("dump")[0]
+    alpha, M, star, gradient = (frame[f"c_c[{k}]"] for k in (1, 2, 3, 4))
+    inertia = alpha if momentum == "published" else 1.0
+    a = star / 1e-3 - gradient / inertia - 1.0
+    middle, x = abs(frame["z"] - 2) < 0.3, frame["x"]
+    bubbly, clear = middle & (abs(x - 0.25) < 0.1), middle & (abs(x - 0.75) < 0.1)
+    # particles are on a lattice whose cells have not grown by the gas, so that V_lb is 1/alpha; and sums on a lattice
+    assert M[bubbly].mean() == pytest.approx(0.05 / 1.05 * (1 - 1 / BETA), rel=0.01)
+    apart = a[bubbly].mean() - a[clear].mean()
+    assert apart == pytest.approx(times * (M[bubbly] / alpha[bubbly]).mean(), rel=0.1)
