@@ -193,9 +193,23 @@ void FixLiquidFlow::setup(int)
 {
   gather(0.0);
   look();
-  if (!(next_dt > 0.0)) next_dt = choose_step();
+  const bool first = !(next_dt > 0.0);
+  if (first) next_dt = choose_step();
   foam_set_timestep(lmp, next_dt);
+  if (first && given.empty()) find_pressure();
   project(next_dt);
+}
+
+// A pressure of 0 at the start would be that of a liquid that expands as soon as gravity acts: it would fall.  So the first is
+// that of a liquid a thousand times less compressible.
+
+void FixLiquidFlow::find_pressure()
+{
+  const double Ma = set.Ma;
+  set.Ma *= 1.0e-3;
+  project(next_dt);
+  set.Ma = Ma;
+  keep_pressure();
 }
 
 void FixLiquidFlow::initial_integrate(int)
@@ -250,6 +264,12 @@ void FixLiquidFlow::look()
 {
   FoamHost space(lmp, groupbit);
   look_in(space);
+}
+
+void FixLiquidFlow::keep_pressure()
+{
+  FoamHost space(lmp, groupbit);
+  keep_pressure_in(space);
 }
 
 void FixLiquidFlow::gather(double dt)

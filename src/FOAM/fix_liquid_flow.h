@@ -68,6 +68,7 @@ class FixLiquidFlow : public FixFoamTravelling {
   Liquid::Setting set;
 
   virtual void look();    // at velocities
+  virtual void keep_pressure();
   virtual void advance();
   virtual void gather(double dt);    // 0: bubbles keep their velocities
   virtual void project(double dt);
@@ -88,6 +89,7 @@ class FixLiquidFlow : public FixFoamTravelling {
   // Rows: whose lists they are, as PairLiquidSPH; Room: where there is room for the matrix (fix_liquid_flow_loops.h)
 
   template <class Space> void look_in(Space &);
+  template <class Space> void keep_pressure_in(Space &);
   template <class Space> void advance_in(Space &);
   template <class Space, class Rows> void gather_in(Space &, const Rows &, double dt);
   template <class Space, class Rows, class Room>
@@ -120,6 +122,7 @@ class FixLiquidFlow : public FixFoamTravelling {
   double iterations_in_all = 0.0;
 
   double choose_step();
+  void find_pressure();
   void check(const Liquid::Solved &) const;
 };
 

@@ -36,6 +36,12 @@ template <class Space> void FixLiquidFlow::look_in(Space &space)
       atom->nlocal, Liquid::LookAtSpeeds<B>{space.bubbles(), set});
 }
 
+template <class Space> void FixLiquidFlow::keep_pressure_in(Space &space)
+{
+  space.for_each(atom->nlocal, Liquid::CopyPressure{space.column(work, Liquid::SOLUTION),
+                                                    space.column(state, PRESSURE)});
+}
+
 template <class Space> void FixLiquidFlow::move_in(Space &space, double dt)
 {
   using B = typename Space::Bubbles;
@@ -131,7 +137,7 @@ void FixLiquidFlow::project_in(Space &space, const Rows &near, Room &room, doubl
   const auto matrix = room.matrix(atom->nlocal, near.widest());
   using M = std::remove_const_t<decltype(matrix)>;
   const double *const before = space.column(state, PRESSURE);
-  space.for_all(atom->nlocal, StartSolution{before, space.column(work, SOLUTION)});
+  space.for_all(atom->nlocal, CopyPressure{before, space.column(work, SOLUTION)});
   space.for_all(nrows, Assemble<B, List, M>{loop, matrix, before, space.column(vectors, 0), dt});
   solved = solve_in(space, matrix);
   check(solved);

@@ -31,6 +31,7 @@
 #ifdef FOAM_KOKKOS
 #include "compute_foam_bubble_kokkos.h"
 #include "fix_bubble_films_kokkos.h"
+#include "fix_bubble_flow_kokkos.h"
 #include "fix_bubble_nve_kokkos.h"
 #include "fix_bubble_rise_kokkos.h"
 #include "fix_foam_abm_kokkos.h"
@@ -39,9 +40,11 @@
 #include "fix_foam_flow_kokkos.h"
 #include "fix_foam_rkc_kokkos.h"
 #include "fix_foam_wall_kokkos.h"
+#include "fix_liquid_flow_kokkos.h"
 #include "fix_wall_bubble_kokkos.h"
 #include "pair_bubble_collision_kokkos.h"
 #include "pair_durian_foam_kokkos.h"
+#include "pair_liquid_sph_kokkos.h"
 #endif
 
 #include "comm.h"
@@ -156,6 +159,9 @@ void lammpsplugin_init(void *lmp, void *handle, void *regfunc)
   const char *const of_bubbles = "fix wall/bubble: walls for bubbles with inertia";
   const char *const nve = "fix bubble/nve: motion of bubbles with inertia";
   const char *const films = "fix bubble/films: made by pair style bubble/collision";
+  const char *const particles = "pair style liquid/sph: particles of a resolved liquid";
+  const char *const resolved = "fix liquid/flow: the flow of a resolved liquid";
+  const char *const carried = "fix bubble/flow: bubbles in a resolved liquid";
 
   pair.operator()<PairDurianFoam>("durian/foam", durian);
   fix.operator()<FixFoamCoarsen>("foam/coarsen", coarsen);
@@ -170,6 +176,10 @@ void lammpsplugin_init(void *lmp, void *handle, void *regfunc)
   fix.operator()<FixBubbleRise>("bubble/rise", rise);
   fix.operator()<FixWallBubble>("wall/bubble", of_bubbles);
   fix.operator()<FixBubbleNVE>("bubble/nve", nve);
+
+  pair.operator()<PairLiquidSPH>("liquid/sph", particles);
+  fix.operator()<FixLiquidFlow>("liquid/flow", resolved);
+  fix.operator()<FixBubbleFlow>("bubble/flow", carried);
   brought = [](const char *, const std::string &) {
   };
   fix.operator()<FixBubbleFilms>("bubble/films", films);
@@ -193,6 +203,9 @@ void lammpsplugin_init(void *lmp, void *handle, void *regfunc)
     fix.operator()<FixWallBubbleKokkos<Device>>(kk("wall/bubble"), of_bubbles);
     fix.operator()<FixBubbleNVEKokkos<Device>>(kk("bubble/nve"), nve);
     fix.operator()<FixBubbleFilmsKokkos<Device>>(kk("bubble/films"), films);
+    pair.operator()<PairLiquidSPHKokkos<Device>>(kk("liquid/sph"), particles);
+    fix.operator()<FixLiquidFlowKokkos<Device>>(kk("liquid/flow"), resolved);
+    fix.operator()<FixBubbleFlowKokkos<Device>>(kk("bubble/flow"), carried);
   };
   kokkos.operator()<LMPDeviceType>("/kk");
   kokkos.operator()<LMPDeviceType>("/kk/device");
@@ -203,10 +216,6 @@ void lammpsplugin_init(void *lmp, void *handle, void *regfunc)
 
   compute.operator()<ComputeBubbleCollision>(
       "bubble/collision", "compute bubble/collision: forces on each bubble by term");
-  pair.operator()<PairLiquidSPH>("liquid/sph",
-                                 "pair style liquid/sph: particles of a resolved liquid");
-  fix.operator()<FixLiquidFlow>("liquid/flow", "fix liquid/flow: the flow of a resolved liquid");
-  fix.operator()<FixBubbleFlow>("bubble/flow", "fix bubble/flow: bubbles in a resolved liquid");
   fix.operator()<FixBubbleSparger>("bubble/sparger",
                                    "fix bubble/sparger: gas that flows into a liquid");
   compute.operator()<ComputeLiquidParticle>(

@@ -398,11 +398,11 @@ template <class B, class List, class Matrix> struct Assemble : Loop<B, List> {
   }
 };
 
-struct StartSolution {
-  static constexpr const char *NAME = "liquid: pressure before";
-  const double *before;
-  double *solution;
-  FOAM_FUNCTION void operator()(int i) const { solution[i] = before[i]; }
+struct CopyPressure {
+  static constexpr const char *NAME = "liquid: copy pressure";
+  const double *from;
+  double *to;
+  FOAM_FUNCTION void operator()(int i) const { to[i] = from[i]; }
 };
 
 // Gradient of the pressure, and the end of the step: x = x_n + dt (u_n + u_{n+1}) / 2 + dt u_ps, from x* = x_n + dt u_n

@@ -16,13 +16,13 @@ FULL_BUILD = os.environ.get("FOAM_TEST_FULL_BUILD")
 UNOPTIMIZED = ["-DCMAKE_CXX_FLAGS_RELEASE=-O0 -DNDEBUG"]    # a third of the time, with nvcc too
 
 ALSO_KOKKOS = {
-    "pair": ["durian/foam", "bubble/collision"],
+    "pair": ["durian/foam", "bubble/collision", "liquid/sph"],
     "fix": ["foam/coarsen", "foam/abm", "foam/rkc", "foam/contacts", "foam/wall", "foam/flow",
-            "bubble/rise", "bubble/nve", "bubble/films", "wall/bubble"],
+            "bubble/rise", "bubble/nve", "bubble/films", "wall/bubble", "liquid/flow", "bubble/flow"],
     "compute": ["foam/bubble"],
 }
 BASE_ALONE = {
-    "pair": ["liquid/sph"], "fix": ["liquid/flow", "bubble/flow", "bubble/sparger"],
+    "pair": [], "fix": ["bubble/sparger"],
     "compute": ["bubble/collision", "liquid/particle", "bubble/flow"],
 }
 STYLES = {kind: names + BASE_ALONE[kind] for kind, names in ALSO_KOKKOS.items()}

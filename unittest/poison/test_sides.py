@@ -11,6 +11,7 @@ import pytest
 
 import runner as styles
 import test_bubble_kokkos as inertia
+import test_liquid_kokkos as liquid
 from test_kokkos import assert_same, of_base_styles, scene    # noqa: F401 (a fixture)
 
 styles.BACKENDS["poisoned"] = styles.Backend("FOAM_LMP_POISONED",
@@ -20,7 +21,10 @@ styles.BACKENDS["poisoned host"] = styles.Backend("FOAM_LMP_POISONED", "-k on t 
 
 def run(runner, name, then="", **more):
     family, _, its = name.rpartition(": ")
-    text, data, ranks = (inertia.scene(its) if family == "inertia" else scene(name))[:3]
+    if family == "liquid":
+        text, data, ranks = liquid.text_of(its)
+    else:
+        text, data, ranks = (inertia.scene(its) if family == "inertia" else scene(name))[:3]
     return runner(text + then, files=data, ranks=ranks, **more)
 
 
@@ -42,6 +46,10 @@ NAMES = ["plain", "3D", "drag between bubbles", "drag between bubbles 3D on 2 ra
 INERTIA = ["inertia: " + name for name in (
     "exact integral", "region", "flow", "implicit drag", "some move", "sorted often", "energies and stresses",
     "chosen steps, 2 ranks", "pair style again", "bubbles deleted", "restarts written")]
+# of a liquid
+LIQUID = ["liquid: " + name for name in (
+    "liquid alone", "plain", "2 ranks", "turbulence", "breaking", "bursting", "sparger", "entrained", "start given",
+    "sorted often", "ranks in tiles", "two runs", "bubbles deleted", "restarts written")]
 WAYS = pytest.mark.parametrize("way", ["poisoned", "poisoned host"])
 
 
@@ -63,6 +71,18 @@ def test_same_as_elsewhere_with_inertia(tmp_path, inertia_of_base_styles, name, 
     inertia.assert_same(inertia_of_base_styles(name), run(styles.Runner(way, tmp_path), name), inertia.SHORT)
 
 
+@pytest.fixture(scope="session")
+def liquid_of_base_styles(tmp_path_factory):
+    """function: what the base styles make of a scene"""
+    return lambda name: run(styles.Runner("wheel", tmp_path_factory.mktemp("liquid")), name)
+
+
+@WAYS
+@pytest.mark.parametrize("name", LIQUID)
+def test_same_as_elsewhere_with_a_liquid(tmp_path, liquid_of_base_styles, name, way):
+    liquid.assert_same(liquid_of_base_styles(name), run(styles.Runner(way, tmp_path), name), liquid.SHORT)
+
+
 # ---- mistakes -----------------------------------------------------------------------------------
 
 # all columns of the styles, and a scene that uses them: neighbor drag has lags, the scheme source work
@@ -80,6 +100,9 @@ COLUMNS = {
     "steps of bubbles": "inertia: region", "liquid around bubbles": "inertia: flow",
     "forces of the liquid": "inertia: region", "terms of collisions": "inertia: region",
     "stress of collisions": "inertia: energies and stresses",
+    "state of the liquid": "liquid: plain", "columns of the liquid": "liquid: plain",
+    "vectors of the solver": "liquid: liquid alone", "state of bubbles in a liquid": "liquid: plain",
+    "columns of bubbles in a liquid": "liquid: plain",
 }
 ELSEWHERE = {"residuals of places"}    # in use in single precision alone
 

@@ -106,9 +106,9 @@ def test_reference(base_lmp, name, ranks, newton):
 
 
 @pytest.mark.parametrize("name", ["periodic", "tank"])
-def test_exchange_conserves_momentum(base_lmp, name):
+def test_exchange_conserves_momentum(lmp, name):
     """What the particles get is what bubbles give: sum V_i M_i = sum M_b, also where drag is taken in sub-steps."""
-    frames = base_lmp(script(name, more="run 3"), files={"data": state(name)}).dump("dump")
+    frames = lmp(script(name, "off", "run 3"), files={"data": state(name)}).dump("dump")
     n, dr = len(table(f"{name}.liquid.csv")["id"]), totals(name)["dr"]
     at, of = list(PARTICLE), list(BUBBLE)
     for frame in frames:
@@ -144,13 +144,13 @@ thermo_modify norm no format float %.17g
 """
 
 
-def test_friction_is_of_second_order(base_lmp):
+def test_friction_is_of_second_order(lmp):
     """The viscous term is nu times the Laplacian of u, -8 pi^2 u, times what the sums give of the Laplacian of x^2 on
     this lattice, a third of the cover, but for an error of second order in dr: it falls by 4, less a tenth by the next
     order."""
     Re, errors = 100, []
     for n in 16, 32:
-        frame = base_lmp(VORTEX.format(n=n, Re=Re, more="") + """
+        frame = lmp(VORTEX.format(n=n, Re=Re, more="") + """
 compute       c all liquid/particle viscousx viscousy cover
 dump          d all custom 1 dump id vx vy c_c[*]
 run           0
@@ -162,10 +162,10 @@ run           0
     assert errors[1] < 0.01
 
 
-def test_vortex_decays(base_lmp):
+def test_vortex_decays(lmp):
     """Short steps take what friction does: the work of the viscous term, to the first order in the 10^-3 of its time
     that they last. What the projection takes from the rest is less: on the lattice there is no divergence."""
-    rows = base_lmp(VORTEX.format(n=16, Re=100, more="dtmax 1e-3") + """
+    rows = lmp(VORTEX.format(n=16, Re=100, more="dtmax 1e-3") + """
 compute       c all liquid/particle viscousx viscousy
 variable      power atom (vx*c_c[1]+vy*c_c[2])*v_dr^3
 compute       power all reduce sum v_power
@@ -175,3 +175,41 @@ run           1
 """).thermo[0]
     lost = (rows["f_l[5]"][1] - rows["f_l[5]"][0]) / rows["Time"][1]
     assert lost == pytest.approx(rows["c_power"][0], rel=5e-3)
+
+
+# ---- at rest ------------------------------------------------------------------------------------
+
+TANK = """
+units         lj
+atom_style    sphere 1
+boundary      p p f
+comm_modify   vel yes
+variable      dr equal 1.0/12
+lattice       sc $(1/v_dr^3) origin 0.5 0.5 0.5
+region        box block 0 $(6*v_dr) 0 $(6*v_dr) 0 1.5 units box
+region        full block 0 $(6*v_dr) 0 $(6*v_dr) 0 1 units box
+create_box    1 box
+create_atoms  1 region full
+set           group all diameter ${{dr}} density $(6/PI)
+pair_style    liquid/sph ${{dr}}
+pair_coeff    * *
+neighbor      $(0.6*v_dr) bin
+fix           l all liquid/flow 1e4 1.0 wall zlo {wall} {more}
+compute       p all liquid/particle p
+dump          d all custom 200 dump id z vx vy vz c_p
+dump_modify   d sort id format float %.17g
+thermo_style  custom step time f_l[5]
+"""
+
+
+@pytest.mark.parametrize("wall", ["slip", "noslip"])
+def test_liquid_at_rest(lmp, wall):
+    """On a lattice sums of linear functions are exact: p = z_s - z, where p is 0 at the highest particles, and nothing
+    moves. What is left is what the solver leaves of the pressure, 1e-6 of it, in a step: velocities of
+    1e-6 dt / Fr^2 / dr, less than 1e-5."""
+    first, last = lmp(TANK.format(wall=wall, more="") + "run 200\n").dump("dump")
+    top = first["z"].max()
+    for frame in first, last:
+        assert frame["c_p"] == pytest.approx(top - first["z"], abs=1e-4)
+        assert np.abs(frame.array("vx", "vy", "vz")).max() < 1e-5
+    assert last["z"] == pytest.approx(first["z"], abs=1e-4)

@@ -178,10 +178,10 @@ run           0
 
 @pytest.mark.parametrize("momentum, times", [("standard", 1.0), ("published", 2.0)])
 def test_buoyancy_counts_once(base_lmp, momentum, times):
-    """Half of a tall column has bubbles at their terminal speed: their drag is the buoyancy M = c (1 - 1/beta). From rest
-    the halves go apart with M / alpha. The published form has the pressure of alpha p, level across the halves, and
-    counts the buoyancy twice. The column is four times as tall as it is wide, so that its ends matter at mid-height by
-    e^(-2 pi); and c varies over 2 h at the edges of the halves, a third of which are left out."""
+    """Half of a tall column has bubbles at their terminal speed: their drag is the buoyancy M = c (1 - 1/beta). From
+    rest the halves go apart with M / alpha. The published form has the pressure of alpha p, level across the halves,
+    and counts the buoyancy twice. The column is four times as tall as it is wide, so that its ends matter at mid-height
+    by e^(-2 pi); and c varies over 2 h at the edges of the halves, a third of which are left out."""
     frame = base_lmp(COLUMN.format(BETA=BETA, momentum=momentum)).dump("dump")[0]
     alpha, M, star, gradient = (frame[f"c_c[{k}]"] for k in (1, 2, 3, 4))
     inertia = alpha if momentum == "published" else 1.0
