@@ -113,6 +113,20 @@ void FixBubbleFlow::init()
                "Fix bubble/flow: there is no type {} for bubbles that are entrained: keyword "
                "type says which",
                born_type);
+  check_sizes(liquid->setting().dr);
+}
+
+// The model is that of bubbles smaller than the spacing
+
+void FixBubbleFlow::check_sizes(double dr) const
+{
+  for (int i = 0; i < atom->nlocal; i++)
+    if ((atom->mask[i] & groupbit) && !(atom->radius[i] > 0.0 && atom->radius[i] <= dr))
+      error->one(
+          FLERR,
+          "Fix bubble/flow: bubble {} has radius {}: it must be > 0, and at most the spacing "
+          "of the liquid, {}",
+          atom->tag[i], atom->radius[i], dr);
 }
 
 void FixBubbleFlow::setup(int)    // some may have been due since the last run

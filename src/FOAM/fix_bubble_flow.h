@@ -64,10 +64,11 @@ class FixBubbleFlow : public FixFoamTravelling {
  private:
   bigint turbulence_seed = 0, breakup_seed = 0, entrain_seed = 0;
   bool entrains = false;
-  int born_type = 2;    // of what is entrained
+  int born_type = 2;                                                   // of what is entrained
   Liquid::BubbleTotals events;                                         // of this rank, in this step
   double born = 0.0, broken = 0.0, burst = 0.0, burst_volume = 0.0;    // so far, of this rank
 
+  void check_sizes(double dr) const;
   void entrain();
   void remove_burst();
   void break_up();

@@ -22,6 +22,12 @@ FixBubbleFlowKokkos<DeviceType>::FixBubbleFlowKokkos(LAMMPS *lmp, int narg, char
   space.groupbit = this->groupbit;
 }
 
+template <class DeviceType> void FixBubbleFlowKokkos<DeviceType>::init()
+{
+  this->atomKK->sync(Host, RADIUS_MASK | MASK_MASK | TAG_MASK);
+  FixBubbleFlow::init();
+}
+
 template <class DeviceType> void FixBubbleFlowKokkos<DeviceType>::initial_integrate(int)
 {
   using B = typename FoamKokkos<DeviceType>::Bubbles;

@@ -29,6 +29,7 @@ template <class DeviceType>
 class FixBubbleFlowKokkos : public FoamTravellingKokkos<FixBubbleFlow, DeviceType> {
  public:
   FixBubbleFlowKokkos(class LAMMPS *, int, char **);
+  void init() override;
   void initial_integrate(int) override;
   void pre_exchange() override;
   double compute_vector(int) override;

@@ -1,5 +1,7 @@
 """Bubbles in a resolved liquid: how they rise, are born, break, and burst at the surface; on any number of ranks."""
 
+import re
+
 import numpy as np
 import pytest
 
@@ -192,3 +194,23 @@ def test_buoyancy_counts_once(base_lmp, momentum, times):
     assert M[bubbly].mean() == pytest.approx(0.05 / 1.05 * (1 - 1 / BETA), rel=0.01)
     apart = a[bubbly].mean() - a[clear].mean()
     assert apart == pytest.approx(times * (M[bubbly] / alpha[bubbly]).mean(), rel=0.1)
+
+
+# ---- what is refused ----------------------------------------------------------------------------
+
+@pytest.mark.parametrize("change, error", [
+    (dict(diameter=0.3, create=one(0.4, 0.4, 0.5)), "bubble .* has radius 0.15: .* at most the spacing"),
+    (dict(more="fix s gas bubble/sparger 0.4 0.4 0.3 0.1 1e-3 radius 0.2\n"), "larger than the spacing"),
+    (dict(more="fix s gas bubble/sparger 0.4 0.4 1.6 0.1 1e-3 radius 0.01\n"), "reaches out of the box along z"),
+    (dict(more="fix s gas bubble/sparger 0.4 0.4 0.3 0.1 1e-3 normal 0.01 0.1 0.02\n"), "MIN of normal must be below"),
+    (dict(gas="surface maybe"), "surface must be no or yes, not maybe"),
+    (dict(gas="breakup -1"), "breakup must be an integer >= 0"),
+    (dict(We=-1), "WE must be a number > 0"),
+    (dict(more="unfix l\n"), "needs fix liquid/flow"),
+    (dict(more="fix b2 water bubble/flow 1 2\n"), "there can be one only"),
+    (dict(width=0.4), "the box is 0.4 wide along x: it must be"),
+])
+def test_bad_input(lmp, change, error):
+    change = {"more": "", **change}
+    result = lmp(tank(**{**change, "more": change["more"] + "run 2\n"}), check=False)
+    assert result.returncode != 0 and any(re.search(error, line) for line in result.errors), result.errors
