@@ -8,8 +8,8 @@ is half a spacing beyond them. Its error is the root mean square over frames unt
 the potential flow of reference.py. Times are those of the CPU without set-up, by LAMMPS' log.
 
 Measured fronts: Martin and Moyce, Phil. Trans. R. Soc. Lond. A 244, 312 (1952), square column of 2.25 inches, as
-redrawn by Leakey et al., arXiv:2108.08769 (2021), figure 7, and Lobovsky et al., arXiv:1308.0115 (2013), figure 12. The zero
-of their time is uncertain, since a gate was pulled away.
+redrawn by Leakey et al., arXiv:2108.08769 (2021), figure 7, and Lobovsky et al., arXiv:1308.0115 (2013), figure 12.
+The zero of their time is uncertain, since a gate was pulled away.
 """
 from __future__ import annotations
 

@@ -5,10 +5,10 @@
 
 The liquid is inviscid, two-dimensional and starts from rest, so that its velocity has a potential phi. Nodes on the
 free surface move with the liquid, and d phi/dt = u^2/2 - z follows them, since the pressure is 0 there. The normal
-velocity is the solution of Green's integral equation on the surface and its mirror images in wall and floor, by linear elements
-whose integrals are exact. Time steps of Runge and Kutta, fourth order. After each step nodes are spread anew along the
-surface, closer to the front; in each fifth step places and potentials are smoothed, as Longuet-Higgins and Cokelet did,
-Proc. R. Soc. Lond. A 350, 1 (1976). The upper edge of the column is rounded by 0.05.
+velocity is the solution of Green's integral equation on the surface and its mirror images in wall and floor, by
+linear elements whose integrals are exact. Time steps of Runge and Kutta, fourth order. After each step nodes are
+spread anew along the surface, closer to the front; in each fifth step places and potentials are smoothed, as Longuet-
+Higgins and Cokelet did, Proc. R. Soc. Lond. A 350, 1 (1976). The upper edge of the column is rounded by 0.05.
 
 Units as in in.dambreak: the column is 1 wide and 1 high, gravity 1.
 """
