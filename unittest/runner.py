@@ -340,8 +340,9 @@ def no_numbers(screen):
 def not_on_device(screen):
     """What shows that not all was done by KOKKOS styles, in their own ways, if anything."""
     # LAMMPS takes the base style, without a word, where there is none with the suffix
-    for attributes in re.findall(r"pair (?:durian/foam|bubble/collision)\S*, .*\n +attributes: (.*)", screen):
+    pairs = r"pair (?:durian/foam|bubble/collision|liquid/sph)\S*, .*\n +attributes: (.*)"
+    for attributes in re.findall(pairs, screen):
         if "kokkos" not in attributes:
             return "-sf kk, but the base styles ran: the plugin has no KOKKOS styles"
-    slow = re.search(r"Fix (?:foam|bubble|wall)/\S+ not .*|Required border comm .*", screen)
+    slow = re.search(r"Fix (?:foam|bubble|wall|liquid)/\S+ not .*|Required border comm .*", screen)
     return f"bubbles went through the host: {slow[0]}" if slow else None

@@ -28,7 +28,7 @@ from numpy.typing import NDArray
 from lammps_foam.analysis import figure, table
 from lammps_foam.analysis.read import Frame, Unusable, read_frames
 
-from run import CLOSURES, EXPLICIT, FINE_TANKS, LIMITED, TANKS
+from run import EXPLICIT, FINE_TANKS, LIMITED, SETTINGS, SHORT_STEPS, TANKS
 
 Array = NDArray[np.float64]
 Series = dict[str, Array]
@@ -92,23 +92,27 @@ def vortex_row(path: Path) -> dict[str, Any]:
     steps, seconds = cost(path / "log.liquid")
     late = series["time"] >= SETTLED
     energy, exact = np.log(series["energy"][late]), np.log(series["exact"][late])
-    return {"run": path.name, "n": int(s["n"]), "dtmax": s["dtmax"], "steps": steps, "seconds": seconds,
+    return {"run": path.name, "n": int(s["n"]), "h": s["h"], "dtmax": s["dtmax"], "steps": steps, "seconds": seconds,
             "rate": (energy[-1] - energy[0]) / (exact[-1] - exact[0]), "error": float(series["error"][late].mean()),
             "iterations": float(series["iterations"][late].mean())}
+
+
+def of_sizes(rows: Rows) -> Rows:
+    """Those that are named by their size alone."""
+    return [row for row in rows if row["run"][0].isdigit()]
 
 
 def vortex_orders(rows: Rows) -> Rows:
     """Orders in the spacing of errors at the same longest step, and rates of decay for steps of no length."""
     found: Rows = []
-    sized = [row for row in rows if row["run"] != "lattice"]
-    for n in sorted({row["n"] for row in sized}):
-        by = {row["dtmax"]: row for row in sized if row["n"] == n}
+    for n, h in sorted({(row["n"], row["h"]) for row in rows}, key=lambda pair: (pair[1], pair[0])):
+        by = {row["dtmax"]: row for row in rows if (row["n"], row["h"]) == (n, h) and row["run"] != "lattice"}
         if not {0.004, 0.001} <= set(by):
             continue
         long, short = by[0.004], by[0.001]
-        row = {"n": n, "rate_dt_0": short["rate"] - (long["rate"] - short["rate"]) / 3,
+        row = {"n": n, "h": h, "rate_dt_0": short["rate"] - (long["rate"] - short["rate"]) / 3,
                "rate_by_dt": (long["rate"] - short["rate"]) / 0.003, "error_dt_0.001": short["error"], "order": np.nan}
-        if found:
+        if found and found[-1]["h"] == h:
             row["order"] = np.log(found[-1]["error_dt_0.001"] / short["error"]) / np.log(n / found[-1]["n"])
         found.append(row)
     return found
@@ -120,23 +124,22 @@ def draw_vortex(out: Path) -> None:
     report(rows, out / "vortex.csv")
     report(vortex_orders(rows), out / "vortex-orders.csv")
     fig, (left, right) = figure.panels(1, 2, width=3.0, height=2.5)
-    largest = max(row["n"] for row in rows)
+    special = {"lattice": ", from a lattice", "wide-0.001": ", h = 1.5"}
     for path, row in zip(paths, rows):
-        if row["n"] == largest or row["run"] == "lattice":
+        if row["run"].startswith("24-") or row["run"] in special:
             series = read_table(path / "vortex.csv")
             step = "by the flow" if row["dtmax"] == float(LIMITED) else f"below {row['dtmax']:g}"
-            label = f"n = {row['n']}, steps {step}" + (", from a lattice" if row["run"] == "lattice" else "")
-            left.plot(series["time"], series["energy"] / series["exact"], "--" if row["run"] == "lattice" else "-",
-                      label=label)
+            left.plot(series["time"], series["energy"] / series["exact"], "--" if row["run"] in special else "-",
+                      label=f"steps {step}{special.get(row['run'], '')}")
     left.axhline(1, color="0.6", lw=0.7)
-    left.set(xlabel="time", ylabel="kinetic energy / exact")
+    left.set(xlabel="time", ylabel="kinetic energy / exact", title="n = 24")
     left.legend()
-    sized = [row for row in rows if row["run"] != "lattice"]
+    sized = of_sizes(rows)
     for dtmax in sorted({row["dtmax"] for row in sized}, reverse=True):
         some = [row for row in sized if row["dtmax"] == dtmax]
         right.plot([1 / row["n"] for row in some], [row["error"] for row in some], "o-",
                    label="steps by the flow" if dtmax == float(LIMITED) else f"steps below {dtmax:g}")
-    size = np.array([min(row["n"] for row in sized), largest])
+    size = np.array([min(row["n"] for row in sized), max(row["n"] for row in sized)])
     first = min(row["error"] for row in sized if row["n"] == size[0])
     for order, style in ((1, ":"), (2, "--")):
         right.plot(1 / size, first * (size[0] / size)**order, style, color="0.6", label=f"order {order}")
@@ -210,25 +213,24 @@ def dambreak_row(name: str, path: Path, script: str, potential: Series) -> dict[
 
 
 def at_same_error(rows: Rows) -> Rows:
-    """Seconds of the explicit method for the errors of ours, on a power law through its last two sizes, or between."""
-    ours = [row for row in rows if row["method"] == "projection"]
+    """Seconds that the explicit method needs for the errors of ours, on power laws from one size to the next.
+
+    Where its finest run is worse than that, its seconds are the least that it needs.
+    """
     theirs = sorted((row for row in rows if row["method"] == "explicit"), key=lambda row: -row["error"])
-    found: Rows = []
-    if len(theirs) < 2:
-        return found
+    same_size = {row["n"]: row for row in theirs}
     error = np.log([row["error"] for row in theirs])
     seconds = np.log([row["seconds"] for row in theirs])
-    same_size = {row["n"]: row for row in theirs}
-    for row in ours:
-        wanted = np.log(row["error"])
-        place = int(np.clip(np.searchsorted(-error, -wanted), 1, len(error) - 1))
-        slope = (seconds[place] - seconds[place - 1]) / (error[place] - error[place - 1])
-        needs = float(np.exp(seconds[place] + slope * (wanted - error[place])))
-        twin = same_size.get(row["n"])
-        found.append({"n": row["n"], "error": row["error"], "seconds": row["seconds"], "explicit_seconds": needs,
-                      "ratio": needs / row["seconds"], "beyond": "yes" if wanted < error[-1] else "no",
-                      "explicit_same_n": twin["seconds"] if twin else np.nan,
-                      "explicit_error_same_n": twin["error"] if twin else np.nan})
+    found: Rows = []
+    for row in rows:
+        if row["method"] != "projection" or row["n"] not in same_size:
+            continue
+        needs = float(np.exp(np.interp(-np.log(row["error"]), -error, seconds)))
+        twin = same_size[row["n"]]
+        found.append({"n": row["n"], "error": row["error"], "seconds": row["seconds"],
+                      "explicit_error": twin["error"], "explicit_seconds": twin["seconds"],
+                      "explicit_needs": needs, "at_least": "yes" if np.log(row["error"]) < error[-1] else "no",
+                      "ratio": needs / row["seconds"]})
     return found
 
 
@@ -254,7 +256,7 @@ def draw_pictures(out: Path, n: int, potential: Series) -> None:
 
 
 def draw_front(out: Path, rows: Rows, n: int, potential: Series) -> None:
-    fig, (left, right) = figure.panels(1, 2, width=3.0, height=2.6)
+    fig, (left, middle, right) = figure.panels(1, 3, width=2.5, height=2.6)
     left.plot(potential["time"], potential["front"], "k-", label="potential flow")
     left.plot(*np.array(MEASURED).T, "s", color="0.5", label="Martin and Moyce")
     for group, label, style in (("dambreak", "this package", "-"), ("explicit", "explicit SPH", "--")):
@@ -265,12 +267,24 @@ def draw_front(out: Path, rows: Rows, n: int, potential: Series) -> None:
     left.set(xlabel=r"$t\,\sqrt{g/a}$", ylabel="front / a", xlim=(0, 2.3), ylim=(1, 4.1))
     left.legend()
     for method, label, style in (("projection", "this package", "o-"), ("explicit", "explicit SPH", "s--")):
-        some = [row for row in rows if row["method"] == method and row["run"].isdigit()]
-        right.plot([row["seconds"] for row in some], [row["error"] for row in some], style, label=label)
+        some = [row for row in of_sizes(rows) if row["method"] == method]
+        middle.plot([row["seconds"] for row in some], [row["error"] for row in some], style, label=label)
         for row in some:
-            right.annotate(str(row["n"]), (row["seconds"], row["error"]), (3, 3), textcoords="offset points",
-                           fontsize=6)
-    right.set(xlabel="seconds of CPU", ylabel="error of the front / a", xscale="log", yscale="log")
+            middle.annotate(str(row["n"]), (row["seconds"], row["error"]), (3, 3), textcoords="offset points",
+                            fontsize=6)
+    middle.set(xlabel="seconds of CPU", ylabel="error of the front / a", xscale="log", yscale="log")
+    middle.legend()
+    steps = {"16": "steps by the flow", "shift-published": "same, shift published"}
+    steps.update({name.replace(" ", "-"): name for name in SHORT_STEPS})
+    for name, label in steps.items():
+        path = out / "dambreak" / name
+        if (path / "complete").is_file():
+            t, x = fronts(path, 16)
+            right.plot(t, x - np.interp(t, potential["time"], potential["front"]),
+                       "--" if "published" in name else "-", label=label)
+    right.axhline(0, color="0.6", lw=0.7)
+    right.set(xlabel=r"$t\,\sqrt{g/a}$", ylabel="front - potential flow", title="n = 16",
+              xlim=(0, UNTIL), ylim=(-0.3, 0.3))
     right.legend()
     figure.save(fig, out / "front")
 
@@ -281,14 +295,15 @@ def draw_dambreak(out: Path) -> None:
         raise Unusable(f"{out} has no potential-*.csv: run.py writes it")
     potential = read_table(file)
     rows: Rows = []
-    for group, script, variants in (("dambreak", "in.dambreak", CLOSURES), ("explicit", "explicit.lmp", EXPLICIT)):
+    for group, script, variants in (("dambreak", "in.dambreak", {**SETTINGS, **SHORT_STEPS}),
+                                    ("explicit", "explicit.lmp", EXPLICIT)):
         names = {path.name: path for path in complete(out / group) if path.name.isdigit()}
         names.update({name: out / group / name.replace(" ", "-") for name in variants})
         for name, path in names.items():
             if (path / "complete").is_file():
                 rows.append(dambreak_row(name, path, script, potential))
     report(rows, out / "dambreak.csv")
-    sized = [row for row in rows if row["run"].isdigit()]
+    sized = of_sizes(rows)
     report(at_same_error(sized), out / "same-error.csv")
     both = [row["n"] for row in sized if (out / "explicit" / str(row["n"]) / "complete").is_file()]
     if both:

@@ -34,17 +34,24 @@ TANKS: dict[str, dict[str, str]] = {
 }
 FINE_TANKS: dict[str, dict[str, str]] = {
     "Re 1e4 n 24": {"les": "none", "n": "24"},
+    "shift published long": {"les": "none", "shift": "published"},
 }
-CLOSURES: dict[str, dict[str, str]] = {                # what differs from in.dambreak
-    "none": {"les": "none"},
+SETTINGS: dict[str, dict[str, str]] = {                # what differs from in.dambreak
+    "no eddies": {"les": "none"},
     "Re 1e4": {"Re": "1.0e4"},
     "ma 0": {"ma": "0"},
     "tol 1e-4": {"tol": "1.0e-4"},
-    "half steps": {"dtmax": "0.005"},
     "published": {"gravity": "published", "shift": "published"},
+    "shift published": {"shift": "published"},
+}
+SHORT_STEPS: dict[str, dict[str, str]] = {             # the flow allows 0.01 or so
+    "dt 0.005": {"dtmax": "0.005"},
+    "dt 0.0025": {"dtmax": "0.0025"},
+    "dt 0.00125": {"dtmax": "0.00125"},
+    "shift published dt 0.0025": {"shift": "published", "dtmax": "0.0025"},
+    "shift published dt 0.00125": {"shift": "published", "dtmax": "0.00125"},
 }
 EXPLICIT: dict[str, dict[str, str]] = {                # what differs from explicit.lmp
-    "alpha 0.01": {"alpha": "0.01"},
     "alpha 0.05": {"alpha": "0.05"},
     "c 5": {"c": "5"},
     "c 20": {"c": "20"},
@@ -76,6 +83,9 @@ def runs(groups: list[str], full: bool) -> Iterator[Run]:
             for dtmax in (LIMITED, "0.004", "0.001"):
                 yield Run(f"vortex/{n}-{dtmax}", "in.vortex", (("n", str(n)), ("dtmax", dtmax)))
         yield Run("vortex/lattice", "in.vortex", (("n", "24"), ("dtmax", "0.004"), ("jiggle", "0")))
+        for dtmax in ("0.004", "0.001"):
+            yield Run(f"vortex/wide-{dtmax}", "in.vortex",
+                      (("n", "24"), ("dtmax", dtmax), ("h", "1.5"), ("layers", "7")))
     if "tank" in groups:
         for name, words in {**TANKS, **(FINE_TANKS if full else {})}.items():
             yield Run(f"tank/{name.replace(' ', '-')}", "in.tank", tuple({"steps": "10000", **words}.items()))
@@ -83,7 +93,7 @@ def runs(groups: list[str], full: bool) -> Iterator[Run]:
         for n in sizes("dambreak", full):
             yield Run(f"dambreak/{n}", "in.dambreak", (("n", str(n)),))
             yield Run(f"explicit/{n}", "explicit.lmp", (("n", str(n)),))
-        for name, words in CLOSURES.items():
+        for name, words in {**SETTINGS, **(SHORT_STEPS if full else {})}.items():
             yield Run(f"dambreak/{name.replace(' ', '-')}", "in.dambreak", tuple(words.items()))
         for name, words in EXPLICIT.items():
             yield Run(f"explicit/{name.replace(' ', '-')}", "explicit.lmp", tuple(words.items()))

@@ -162,8 +162,9 @@ void FixBubbleFlow::pre_exchange()
 {
   if (next_reneighbor != update->ntimestep) return;
   if (set.breaks) break_up();
+  if (entrains)
+    entrain();    // which looks at columns of the last step, before particles change places
   remove_burst();
-  if (entrains) entrain();
 }
 
 void FixBubbleFlow::remove_burst()

@@ -196,12 +196,12 @@ void FixLiquidFlow::setup(int)
   const bool first = !(next_dt > 0.0);
   if (first) next_dt = choose_step();
   foam_set_timestep(lmp, next_dt);
-  if (first && given.empty()) find_pressure();
+  if (first && given.empty() && compute_vector(6) > 0.0) find_pressure();
   project(next_dt);
 }
 
 // A pressure of 0 at the start would be that of a liquid that expands as soon as gravity acts: it would fall.  So the first is
-// that of a liquid a thousand times less compressible.
+// that of a liquid a thousand times less compressible.  Without a surface nothing says how high it is.
 
 void FixLiquidFlow::find_pressure()
 {

@@ -24,7 +24,7 @@ def configured(name, *options):
     # another LAMMPS, another directory
     where = KEPT / f"{LAMMPS_BUILD.parent.name}-{name}"
     tree, build = where / "lammps", where / "build"
-    for family in "*foam*", "*bubble*":    # our files of old
+    for family in "*foam*", "*bubble*", "*liquid*":    # our files of old
         for installed in (tree / "src").rglob(family):
             if not any(PROJECT.glob(f"src/*/{installed.name}")):
                 installed.unlink()
