@@ -71,8 +71,9 @@ def standing_out(signal: Array, window: int) -> Array:
     """The signal less its running median, in units of its usual deviation there."""
     deviation = signal - running_median(signal, window)
     usual = 1.4826 * running_median(np.abs(deviation), window)
-    floor = 1.0e-3 * np.max(np.abs(deviation), initial=0.0)    # a signal at rest deviates by rounding only
-    return np.asarray(deviation / np.maximum(np.maximum(usual, floor), 1.0e-300))
+    # a signal at rest deviates by rounding: less than a table's digits, or little of what it does elsewhere
+    floor = max(1.0e-9 * np.max(np.abs(signal), initial=0.0), 1.0e-3 * np.max(np.abs(deviation), initial=0.0), 1.0e-300)
+    return np.asarray(deviation / np.maximum(usual, floor))
 
 
 def events(ln_tau: Array, signal: Array, threshold: float) -> Events:
