@@ -34,6 +34,7 @@ Array = NDArray[np.float64]
 Series = dict[str, Array]
 Rows = list[dict[str, Any]]
 HERE = Path(__file__).resolve().parent
+LINES = {"lattice": "--", "wide-0.001": ":"}
 UNTIL = 1.75         # errors of fronts are those until then: later ones of reference.py depend on its nodes
 SETTLED = 0.1        # and those of vortices from then on
 MEASURED = (         # time and front
@@ -124,20 +125,21 @@ def draw_vortex(out: Path) -> None:
     report(rows, out / "vortex.csv")
     report(vortex_orders(rows), out / "vortex-orders.csv")
     fig, (left, right) = figure.panels(1, 2, width=3.0, height=2.5)
+    colours = {dtmax: f"C{k}" for k, dtmax in enumerate(sorted({row["dtmax"] for row in rows}, reverse=True))}
     special = {"lattice": ", from a lattice", "wide-0.001": ", h = 1.5"}
     for path, row in zip(paths, rows):
         if row["run"].startswith("24-") or row["run"] in special:
             series = read_table(path / "vortex.csv")
             step = "by the flow" if row["dtmax"] == float(LIMITED) else f"below {row['dtmax']:g}"
-            left.plot(series["time"], series["energy"] / series["exact"], "--" if row["run"] in special else "-",
-                      label=f"steps {step}{special.get(row['run'], '')}")
+            left.plot(series["time"], series["energy"] / series["exact"], LINES.get(row["run"], "-"),
+                      color=colours[row["dtmax"]], label=f"steps {step}{special.get(row['run'], '')}")
     left.axhline(1, color="0.6", lw=0.7)
     left.set(xlabel="time", ylabel="kinetic energy / exact", title="n = 24")
     left.legend()
     sized = of_sizes(rows)
     for dtmax in sorted({row["dtmax"] for row in sized}, reverse=True):
         some = [row for row in sized if row["dtmax"] == dtmax]
-        right.plot([1 / row["n"] for row in some], [row["error"] for row in some], "o-",
+        right.plot([1 / row["n"] for row in some], [row["error"] for row in some], "o-", color=colours[dtmax],
                    label="steps by the flow" if dtmax == float(LIMITED) else f"steps below {dtmax:g}")
     size = np.array([min(row["n"] for row in sized), max(row["n"] for row in sized)])
     first = min(row["error"] for row in sized if row["n"] == size[0])
@@ -168,22 +170,21 @@ def draw_tank(out: Path) -> None:
     paths = {name: out / "tank" / name.replace(" ", "-") for name in {**TANKS, **FINE_TANKS}}
     paths = {name: path for name, path in paths.items() if (path / "complete").is_file()}
     report([tank_row(name, path) for name, path in paths.items()], out / "tank.csv")
-    fig, (left, middle, right) = figure.panels(1, 3, width=2.4, height=2.5)
+    fig, (left, middle, right) = figure.panels(1, 3, width=2.5, height=2.9)
     for name, path in paths.items():
         series = read_table(path / "tank.csv")
         line = left.plot(series["step"][1:], np.maximum(series["rms"][1:], 1e-10), label=name)[0]
         middle.plot(series["step"], series["mean"] - series["mean"][0], color=line.get_color())
         if "published" not in name:
             frame = next(iter(read_frames(path / "tank.lammpstrj")))
-            right.plot(frame["p"], frame["z"], ".", ms=1.5, color=line.get_color())
-    right.plot([0, 1], [1, 0], "k-", lw=0.5, label="p = 1 - z")
-    left.set(xlabel="step", ylabel="root mean square of velocities", yscale="log", xscale="log", ylim=(1e-9, 10))
-    left.legend(loc="upper left")
-    middle.set(xlabel="step", ylabel="rise of the mean height", xscale="symlog", yscale="symlog")
+            right.plot(frame["p"], frame["p"] + frame["z"] - series["top"][-1], ".", ms=2, color=line.get_color())
+    left.set(xlabel="step", ylabel="root mean square of velocities", yscale="log", xscale="log", ylim=(1e-10, 1))
+    middle.set(xlabel="step", ylabel="rise of the mean height", xscale="log", xlim=(100, 1.2e4))
     middle.set_yscale("symlog", linthresh=1e-3)
-    middle.set_xscale("symlog", linthresh=100)
-    right.set(xlabel="pressure at the end", ylabel="height")
-    right.legend()
+    right.axhline(0, color="0.6", lw=0.7)
+    right.set(xlabel="pressure p at the end", ylabel="p + z - height of the surface")
+    right.ticklabel_format(axis="y", style="sci", scilimits=(0, 0))
+    fig.legend(*left.get_legend_handles_labels(), loc="outside lower center", ncols=4)
     figure.save(fig, out / "tank")
 
 
@@ -196,6 +197,15 @@ def fronts(path: Path, n: int) -> tuple[Array, Array]:
             np.array([np.sort(frame["x"])[-4] + 0.5 / n for frame in frames]))
 
 
+def frame_at(frames: list[Frame], time: float) -> Frame:
+    return min(frames, key=lambda frame: abs((frame.time or 0.0) - time))
+
+
+def energy(frame: Frame) -> float:
+    """Kinetic and potential, of a particle."""
+    return float(np.mean(0.5 * (frame["vx"]**2 + frame["vz"]**2) + frame["z"]))
+
+
 def dambreak_row(name: str, path: Path, script: str, potential: Series) -> dict[str, Any]:
     n = int(settings(path, script)["n"])
     steps, seconds = cost(path / "log.liquid")
@@ -206,6 +216,8 @@ def dambreak_row(name: str, path: Path, script: str, potential: Series) -> dict[
            "seconds": seconds, "error": float(np.sqrt(np.mean(off[early]**2)))}
     for time in (0.5, 1.0, 1.5):
         row[f"off_{time:g}"] = float(np.interp(time, t, off))
+    frames = list(read_frames(path / "dambreak.lammpstrj"))
+    row["energy"] = energy(frame_at(frames, UNTIL)) / energy(frames[0])
     row["iterations"] = np.nan
     if script == "in.dambreak":
         row["iterations"] = float(read_table(path / "dambreak.csv")["iterations"].mean())
@@ -232,10 +244,6 @@ def at_same_error(rows: Rows) -> Rows:
                       "explicit_needs": needs, "at_least": "yes" if np.log(row["error"]) < error[-1] else "no",
                       "ratio": needs / row["seconds"]})
     return found
-
-
-def frame_at(frames: list[Frame], time: float) -> Frame:
-    return min(frames, key=lambda frame: abs((frame.time or 0.0) - time))
 
 
 def draw_pictures(out: Path, n: int, potential: Series) -> None:

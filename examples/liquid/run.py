@@ -52,7 +52,8 @@ SHORT_STEPS: dict[str, dict[str, str]] = {             # the flow allows 0.01 or
     "shift published dt 0.00125": {"shift": "published", "dtmax": "0.00125"},
 }
 EXPLICIT: dict[str, dict[str, str]] = {                # what differs from explicit.lmp
-    "alpha 0.05": {"alpha": "0.05"},
+    "alpha 0.02": {"alpha": "0.02"},
+    "alpha 0.02 half steps": {"alpha": "0.02", "courant": "0.1"},
     "c 5": {"c": "5"},
     "c 20": {"c": "20"},
     "reach 3": {"reach": "3.0"},

@@ -113,7 +113,7 @@ void FixBubbleFlow::init()
                "Fix bubble/flow: there is no type {} for bubbles that are entrained: keyword "
                "type says which",
                born_type);
-  check_sizes(liquid->setting().dr);
+  if (const PairLiquidSPH *pair = PairLiquidSPH::of(lmp)) check_sizes(pair->dr);
 }
 
 // The model is that of bubbles smaller than the spacing
@@ -255,10 +255,13 @@ void FixBubbleFlow::break_up()
     const double apart = (small + large) / std::sqrt(square);
     Newborn child{
         static_cast<double>(atom->tag[i]), 0.0, static_cast<double>(atom->type[i]), {}, {}, small};
+    const Liquid::Walls &walls = FixLiquidFlow::of(lmp)->walls;
     for (int k = 0; k < 3; k++) {
       child.x[k] = atom->x[i][k] + (1.0 - V) * apart * n[k];
       child.v[k] = atom->v[i][k];
       atom->x[i][k] -= V * apart * n[k];
+      walls.keep(k, child.x[k], child.v[k]);
+      walls.keep(k, atom->x[i][k], atom->v[i][k]);
     }
     children.push_back(child);
     atom->radius[i] = large;

@@ -10,10 +10,10 @@
 #include "fix_bubble_sparger.h"
 
 #include "fix_bubble_flow.h"
-#include "fix_liquid_flow.h"
 #include "foam_input.h"
 #include "foam_start.h"
 #include "liquid_births.h"
+#include "pair_liquid_sph.h"
 
 #include "atom.h"
 #include "comm.h"
@@ -77,13 +77,13 @@ void FixBubbleSparger::init()
 {
   gas = FixBubbleFlow::of(lmp);
   if (!gas) error->all(FLERR, "Fix bubble/sparger needs fix bubble/flow");
-  const FixLiquidFlow *const liquid = FixLiquidFlow::of(lmp);
-  if (liquid && mean > liquid->setting().dr)
+  const PairLiquidSPH *const liquid = PairLiquidSPH::of(lmp);
+  if (liquid && mean > liquid->dr)
     error->all(
         FLERR,
         "Fix bubble/sparger: bubbles of radius {} are larger than the spacing of the liquid, "
         "{}",
-        mean, liquid->setting().dr);
+        mean, liquid->dr);
   for (int k = 0; k < 3; k++) {
     const double around = k < 2 ? disc : 0.0;
     if (!domain->periodicity[k] &&

@@ -316,7 +316,8 @@ def test_styles_are_told_at_load(lmp):
     line = re.search("Foam package: (.*)", lmp("print hello\n").screen)[1]
     styles = ("pair_style durian/foam", "fix foam/coarsen", "fix foam/contacts", "fix foam/flow", "fix foam/abm",
               "fix foam/rkc", "fix foam/wall", "compute foam/bubble", "pair_style bubble/collision", "fix bubble/rise",
-              "fix wall/bubble", "fix bubble/nve", "compute bubble/collision", "command create_foam",
-              "command relax_foam")
+              "fix wall/bubble", "fix bubble/nve", "pair_style liquid/sph", "fix liquid/flow", "fix bubble/flow",
+              "compute bubble/collision", "fix bubble/sparger", "compute liquid/particle", "compute bubble/flow",
+              "command create_foam", "command relax_foam")
     assert line.replace(", each also with /kk", "").split(", ") == list(styles)
     assert ("/kk" in line) == lmp.kokkos

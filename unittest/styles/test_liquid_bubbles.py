@@ -214,3 +214,17 @@ def test_bad_input(lmp, change, error):
     change = {"more": "", **change}
     result = lmp(tank(**{**change, "more": change["more"] + "run 2\n"}), check=False)
     assert result.returncode != 0 and any(re.search(error, line) for line in result.errors), result.errors
+
+
+def test_parts_stay_between_walls(lmp):
+    """Bubbles that break beside a wall of the box: their parts are put to where their images are."""
+    result = lmp(tank(create=one(0.41, 0.37, 0.02) + "\n" + one(0.2, 0.3, 0.03), diameter=0.08, velocity=BREAKING,
+                      We=1e6, dt=0.002, gas="surface no breakup 5", more="""
+thermo_style custom step f_b[1] f_b[2] f_b[4]
+thermo_modify norm no format float %.17g
+thermo 100
+run 100
+"""))
+    table = result.thermo[0]
+    assert table["f_b[4]"][-1] > 0
+    assert table["f_b[2]"][-1] == pytest.approx(table["f_b[2]"][0], rel=1e-13)
