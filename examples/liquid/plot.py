@@ -139,14 +139,14 @@ def draw_vortex(out: Path) -> None:
     sized = of_sizes(rows)
     for dtmax in sorted({row["dtmax"] for row in sized}, reverse=True):
         some = [row for row in sized if row["dtmax"] == dtmax]
-        right.plot([1 / row["n"] for row in some], [row["error"] for row in some], "o-", color=colours[dtmax],
+        right.plot([row["n"] for row in some], [row["error"] for row in some], "o-", color=colours[dtmax],
                    label="steps by the flow" if dtmax == float(LIMITED) else f"steps below {dtmax:g}")
     size = np.array([min(row["n"] for row in sized), max(row["n"] for row in sized)])
     first = min(row["error"] for row in sized if row["n"] == size[0])
     for order, style in ((1, ":"), (2, "--")):
-        right.plot(1 / size, first * (size[0] / size)**order, style, color="0.6", label=f"order {order}")
-    right.set(xlabel="spacing", ylabel="error of velocities", xscale="log", yscale="log")
-    figure.plain_ticks(right)
+        right.plot(size, first * (size[0] / size)**order, style, color="0.6", label=f"order {order}")
+    right.set(xlabel="particles along an edge", ylabel="error of velocities", xscale="log", yscale="log")
+    figure.plain_ticks(right, "x")
     right.legend()
     figure.save(fig, out / "vortex")
 
@@ -272,8 +272,8 @@ def draw_front(out: Path, rows: Rows, n: int, potential: Series) -> None:
             path = out / group / str(size)
             if (path / "complete").is_file():
                 left.plot(*fronts(path, size), style, color=colour, label=f"{label}, n = {size}")
-    left.set(xlabel=r"$t\,\sqrt{g/a}$", ylabel="front / a", xlim=(0, 2.3), ylim=(1, 4.1))
-    left.legend()
+    left.set(xlabel=r"$t\,\sqrt{g/a}$", ylabel="front / a", xlim=(0, 2.3), ylim=(1, 4.6))
+    left.legend(fontsize=6)
     for method, label, style in (("projection", "this package", "o-"), ("explicit", "explicit SPH", "s--")):
         some = [row for row in of_sizes(rows) if row["method"] == method]
         middle.plot([row["seconds"] for row in some], [row["error"] for row in some], style, label=label)
@@ -282,18 +282,21 @@ def draw_front(out: Path, rows: Rows, n: int, potential: Series) -> None:
                             fontsize=6)
     middle.set(xlabel="seconds of CPU", ylabel="error of the front / a", xscale="log", yscale="log")
     middle.legend()
-    steps = {"16": "steps by the flow", "shift-published": "same, shift published"}
-    steps.update({name.replace(" ", "-"): name for name in SHORT_STEPS})
-    for name, label in steps.items():
+    names = ["16", "shift-published", *(name.replace(" ", "-") for name in SHORT_STEPS)]
+    colours: dict[float, str] = {}
+    for name in names:
         path = out / "dambreak" / name
         if (path / "complete").is_file():
             t, x = fronts(path, 16)
-            right.plot(t, x - np.interp(t, potential["time"], potential["front"]),
-                       "--" if "published" in name else "-", label=label)
+            dtmax = settings(path, "in.dambreak")["dtmax"]
+            label = "steps by the flow" if dtmax == float(LIMITED) else f"below {dtmax:g}"
+            right.plot(t, x - np.interp(t, potential["time"], potential["front"]), "--" if "published" in name else "-",
+                       color=colours.setdefault(dtmax, f"C{len(colours)}"),
+                       label=label + (", shift published" if "published" in name else ""))
     right.axhline(0, color="0.6", lw=0.7)
     right.set(xlabel=r"$t\,\sqrt{g/a}$", ylabel="front - potential flow", title="n = 16",
-              xlim=(0, UNTIL), ylim=(-0.3, 0.3))
-    right.legend()
+              xlim=(0, UNTIL), ylim=(-0.25, 0.45))
+    right.legend(fontsize=6, loc="upper left")
     figure.save(fig, out / "front")
 
 

@@ -30,11 +30,10 @@ TANKS: dict[str, dict[str, str]] = {
     "Re 1e4": {"les": "none"},
     "Re 1e4 mixed": {},
     "gravity published": {"les": "none", "gravity": "published", "shift": "published", "steps": "2000"},
-    "shift published": {"les": "none", "shift": "published", "steps": "2000"},
+    "shift published": {"les": "none", "shift": "published"},
 }
 FINE_TANKS: dict[str, dict[str, str]] = {
     "Re 1e4 n 24": {"les": "none", "n": "24"},
-    "shift published long": {"les": "none", "shift": "published"},
 }
 SETTINGS: dict[str, dict[str, str]] = {                # what differs from in.dambreak
     "no eddies": {"les": "none"},
@@ -84,7 +83,7 @@ def runs(groups: list[str], full: bool) -> Iterator[Run]:
             for dtmax in (LIMITED, "0.004", "0.001"):
                 yield Run(f"vortex/{n}-{dtmax}", "in.vortex", (("n", str(n)), ("dtmax", dtmax)))
         yield Run("vortex/lattice", "in.vortex", (("n", "24"), ("dtmax", "0.004"), ("jiggle", "0")))
-        for dtmax in ("0.004", "0.001"):
+        for dtmax in ("0.004", "0.001") if full else ():
             yield Run(f"vortex/wide-{dtmax}", "in.vortex",
                       (("n", "24"), ("dtmax", dtmax), ("h", "1.5"), ("layers", "7")))
     if "tank" in groups:
