@@ -196,9 +196,7 @@ void FixBubbleFlow::entrain()
     double energy =
         Liquid::energy_for_surfaces(set.beta, eps, its.volume_of_liquid(), liquid.last_step());
     double room = Liquid::room_for_gas(alpha, Liquid::Kernel(liquid.work[Liquid::H][i])(0.0));
-    const auto seed = static_cast<std::uint64_t>(entrain_seed) +
-                      (static_cast<std::uint64_t>(update->ntimestep) << 24);
-    const Foam::Draws draws(seed, atom->tag[i]);
+    const Foam::Draws draws(of_this_step(entrain_seed), atom->tag[i]);
     const double least = Liquid::smallest_entrained(set.We);
     int accepted = 0, refused = 0;
     for (unsigned n = 0; energy > 0.0 && room > 0.0 && accepted < MOST && refused <= REFUSED;
@@ -241,9 +239,7 @@ void FixBubbleFlow::break_up()
     if (!(state[Liquid::DEFORMED][i] > 2.0 * a)) continue;
     state[Liquid::DEFORMED][i] = 0.0;
     const double eps = age > 0.0 ? state[Liquid::STRESSED][i] / age : 0.0;
-    const auto seed = static_cast<std::uint64_t>(breakup_seed) +
-                      (static_cast<std::uint64_t>(update->ntimestep) << 24);
-    const Foam::Draws draws(seed, atom->tag[i]);
+    const Foam::Draws draws(of_this_step(breakup_seed), atom->tag[i]);
     const double V = Liquid::smaller_part(Liquid::least_size(set.We, eps, a), draws);
     if (!(V > 0.0)) continue;    // too small to break
     double n[3], square = 0.0;

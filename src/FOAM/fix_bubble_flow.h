@@ -68,6 +68,10 @@ class FixBubbleFlow : public FixFoamTravelling {
   Liquid::BubbleTotals events;                                         // of this rank, in this step
   double born = 0.0, broken = 0.0, burst = 0.0, burst_volume = 0.0;    // so far, of this rank
 
+  std::uint64_t of_this_step(bigint seed) const
+  {
+    return static_cast<std::uint64_t>(seed) + (static_cast<std::uint64_t>(update->ntimestep) << 24);
+  }
   void check_sizes(double dr) const;
   void entrain();
   void remove_burst();
@@ -94,9 +98,8 @@ void FixBubbleFlow::exchange_in(Space &space,
   Space ours(space);
   ours.groupbit = groupbit;
   if (set.turbulence) {
-    const auto seed = static_cast<std::uint64_t>(turbulence_seed) +
-                      (static_cast<std::uint64_t>(update->ntimestep) << 24);
-    ours.for_each(atom->nlocal, AddTurbulence<B>{liquid.b, at, liquid.set, seed, dt});
+    ours.for_each(atom->nlocal,
+                  AddTurbulence<B>{liquid.b, at, liquid.set, of_this_step(turbulence_seed), dt});
   }
   ours.for_each(atom->nlocal, BubbleForces<B>{liquid.b, at, liquid.set, set});
   events = BubbleTotals();

@@ -235,8 +235,16 @@ void FixLiquidFlow::end_of_step()
 
 double FixLiquidFlow::choose_step()
 {
-  double mine[2] = {speeds.speed, totals.nu}, all[2];
-  MPI_Allreduce(mine, all, 2, MPI_DOUBLE, MPI_MAX, world);
+  double mine[3] = {speeds.speed, totals.nu, totals.gas}, all[3];
+  MPI_Allreduce(mine, all, 3, MPI_DOUBLE, MPI_MAX, world);
+  if (!told_of_gas && all[2] >= Liquid::MOST_GAS) {
+    told_of_gas = true;
+    if (comm->me == 0)
+      error->warning(FLERR,
+                     "Fix liquid/flow: particles are full of gas at step {}, c = {}: more is not "
+                     "counted in the volume of the liquid",
+                     update->ntimestep, Liquid::MOST_GAS);
+  }
   const double *g = set.gravity;
   const double step = Liquid::longest_step(set.h0, std::sqrt(all[0]), set.Re, all[1],
                                            std::sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]));
@@ -361,15 +369,12 @@ double FixLiquidFlow::compute_vector(int n)
 void FixLiquidFlow::write_restart(FILE *fp)
 {
   if (comm->me != 0) return;
-  const double values[] = {next_dt, iterations_in_all};
-  const int size = sizeof(values);
+  const int size = sizeof(next_dt);
   fwrite(&size, sizeof(int), 1, fp);
-  fwrite(values, size, 1, fp);
+  fwrite(&next_dt, size, 1, fp);
 }
 
 void FixLiquidFlow::restart(char *buf)
 {
-  const auto *values = (const double *) buf;
-  next_dt = values[0];
-  iterations_in_all = values[1];
+  next_dt = *(const double *) buf;
 }

@@ -119,7 +119,7 @@ class FixLiquidFlow : public FixFoamTravelling {
   Liquid::GatherTotals totals;
   Liquid::SpeedTotals speeds;    // of this rank
   Liquid::Solved solved;
-  double iterations_in_all = 0.0;
+  bool told_of_gas = false;
 
   double choose_step();
   void find_pressure();

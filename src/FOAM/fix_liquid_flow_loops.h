@@ -141,7 +141,6 @@ void FixLiquidFlow::project_in(Space &space, const Rows &near, Room &room, doubl
   space.for_all(nrows, Assemble<B, List, M>{loop, matrix, before, space.column(vectors, 0), dt});
   solved = solve_in(space, matrix);
   check(solved);
-  iterations_in_all += solved.iterations;
   send(work, SOLUTION, 1);
   space.for_all(nrows, Project<B, List>{loop});
 }

@@ -229,9 +229,11 @@ template <class B, class List> struct Gather : Loop<B, List> {
       const double d = u[k] - filtered[k] / weights;
       square += d * d;
     }
-    double along[3];
-    multiply(L, of_alpha, along);
-    for (int k = 0; k < 3; k++) c(GRAD_ALPHA + k, i) = along[k];
+    if (this->set.published) {
+      double along[3];
+      multiply(L, of_alpha, along);
+      for (int k = 0; k < 3; k++) c(GRAD_ALPHA + k, i) = along[k];
+    }
     const double S = strain_rate(gradient);
     c(STRAIN, i) = S;
     c(UNRESOLVED, i) = 0.5 * square;
@@ -409,18 +411,16 @@ struct CopyPressure {
 
 struct SpeedTotals {
   Foam::FoamMax speed;    // squared
-  Foam::FoamSum kinetic, bad;
+  Foam::FoamSum kinetic;
   FOAM_FUNCTION void add(double square, double mass)
   {
     speed.raise(square);
     kinetic += 0.5 * mass * square;
-    if (!(square < 1.0e300)) bad += 1.0;
   }
   FOAM_FUNCTION void join(const SpeedTotals &other)
   {
     speed.join(other.speed);
     kinetic.join(other.kinetic);
-    bad.join(other.bad);
   }
 };
 
