@@ -116,6 +116,16 @@ def test_ranks_are_lammps(tmp_path):
     assert "hydra" in parent
 
 
+def test_files_of_the_starter_stay_open(tmp_path):
+    """The lock takes a file descriptor that is free: mpiexec speaks to a rank, ./foam lmp, by one that it has opened."""
+    numbers = range(3, 10)
+    opened = " ".join(f"exec {n}>{tmp_path}/{n};" for n in numbers)
+    spoken = " ".join(f"echo kept >&{n};" for n in numbers)
+    subprocess.run(["bash", "-c", f'{opened} source "$0" help >/dev/null; lock {tmp_path}/cache; unlock; {spoken}',
+                    DRIVER], check=True, timeout=60)
+    assert {(tmp_path / str(n)).read_text() for n in numbers} == {"kept\n"}
+
+
 def test_command_of_the_package():
     command = ENVIRONMENT / "bin" / "lammps-foam"
     usage = subprocess.run([command], capture_output=True, text=True)
