@@ -117,7 +117,7 @@ def test_ranks_are_lammps(tmp_path):
 
 
 def test_files_of_the_starter_stay_open(tmp_path):
-    """The lock takes a file descriptor that is free: mpiexec speaks to a rank, ./foam lmp, by one that it has opened."""
+    """The lock takes a file descriptor that is free: mpiexec speaks to its ranks by one that it has opened."""
     numbers = range(3, 10)
     opened = " ".join(f"exec {n}>{tmp_path}/{n};" for n in numbers)
     spoken = " ".join(f"echo kept >&{n};" for n in numbers)
