@@ -83,10 +83,11 @@ FixBubbleFlow::FixBubbleFlow(LAMMPS *lmp, int narg, char **arg) : FixFoamTravell
   vector_flag = 1;
   size_vector = 6;
   restart_global = 1;
-  maxexchange = Liquid::BUBBLE_STATES;
+  maxexchange = Liquid::BUBBLE_STATES + 1;
   extvector = 0;
   global_freq = 1;
   state.use(atom->nmax);
+  if (entrains) dissipates.use(atom->nmax);
   add_callbacks();
 }
 
@@ -136,19 +137,25 @@ void FixBubbleFlow::setup(int)    // some may have been due since the last run
 
 void FixBubbleFlow::initial_integrate(int)
 {
+  advance(update->dt);
+}
+
+void FixBubbleFlow::advance(double dt)
+{
   FoamHost space(lmp, groupbit);
   space.for_each(atom->nlocal, Liquid::Advance<FoamHost::Bubbles>{
-                                   space.bubbles(), FixLiquidFlow::of(lmp)->walls, update->dt});
+                                   space.bubbles(), FixLiquidFlow::of(lmp)->walls, dt});
+}
+
+void FixBubbleFlow::go_back()
+{
+  FoamHost space(lmp, groupbit);
+  go_back_in(space);
 }
 
 /* ----------------------------------------------------------------------
    births and deaths
 ------------------------------------------------------------------------- */
-
-void FixBubbleFlow::set_arrays(int i)    // a new bubble
-{
-  for (int k = 0; k < Liquid::BUBBLE_STATES; k++) state[k][i] = 0.0;
-}
 
 void FixBubbleFlow::end_of_step()
 {
@@ -162,8 +169,7 @@ void FixBubbleFlow::pre_exchange()
 {
   if (next_reneighbor != update->ntimestep) return;
   if (set.breaks) break_up();
-  if (entrains)
-    entrain();    // which looks at columns of the last step, before particles change places
+  if (entrains) entrain();
   remove_burst();
 }
 
@@ -189,13 +195,14 @@ void FixBubbleFlow::entrain()
   std::vector<Newborn> bubbles;
   for (int i = 0; i < atom->nlocal; i++) {
     const double *const x = atom->x[i], *const v = atom->v[i];
-    if (!(atom->mask[i] & liquid.groupbit) || !(liquid.work[Liquid::SURFACE][i] > 0.0)) continue;
-    const double eps = liquid.work[Liquid::EPSILON][i], alpha = liquid.work[Liquid::ALPHA][i];
-    if (!Liquid::entrains(eps, alpha)) continue;
+    if (!(atom->mask[i] & liquid.groupbit) || !(dissipates[0][i] > 0.0)) continue;
     const Liquid::Setting &its = liquid.setting();
-    double energy =
-        Liquid::energy_for_surfaces(set.beta, eps, its.volume_of_liquid(), liquid.last_step());
-    double room = Liquid::room_for_gas(alpha, Liquid::Kernel(liquid.work[Liquid::H][i])(0.0));
+    const double h = liquid.state[FixLiquidFlow::SMOOTHING][i];
+    double energy = Liquid::energy_for_surfaces(set.beta, dissipates[0][i], its.volume_of_liquid(),
+                                                liquid.last_step());
+    double room =
+        Liquid::room_for_gas(Liquid::fraction_of_length(its.h0, h), Liquid::Kernel(h)(0.0));
+    dissipates[0][i] = 0.0;
     const Foam::Draws draws(of_this_step(entrain_seed), atom->tag[i]);
     const double least = Liquid::smallest_entrained(set.We);
     int accepted = 0, refused = 0;

@@ -38,15 +38,19 @@ class FixBubbleFlow : public FixFoamTravelling {
   void initial_integrate(int) override;
   void pre_exchange() override;
   void end_of_step() override;
-  void set_arrays(int) override;
   void write_restart(FILE *) override;
   void restart(char *) override;
   double compute_vector(int) override;
 
   FoamColumns state{all_columns, "state of bubbles in a liquid", Liquid::BUBBLE_STATES, TRAVELS};
   FoamColumns work{all_columns, "columns of bubbles in a liquid", Liquid::AT_BUBBLES, STAYS};
+  FoamColumns before{all_columns, "bubbles before the step", Liquid::BEFORE_STEP, STAYS};
+  FoamColumns dissipates{all_columns, "dissipation at the surface", 1, TRAVELS};
   Liquid::BubbleSetting set;
   double density() const { return 1.0 / set.beta; }    // of the gas
+  double fastest() const { return events.speed; }      // of this rank, squared
+  virtual void advance(double dt);
+  virtual void go_back();    // to what they were before a step
 
   // from particles to bubbles: what is there, forces; with dt > 0 new velocities
 
@@ -61,6 +65,9 @@ class FixBubbleFlow : public FixFoamTravelling {
     return all;
   }
 
+ protected:
+  template <class Space> void go_back_in(Space &space) { keep_in(space, space.bubbles(), true); }
+
  private:
   bigint turbulence_seed = 0, breakup_seed = 0, entrain_seed = 0;
   bool entrains = false;
@@ -71,6 +78,12 @@ class FixBubbleFlow : public FixFoamTravelling {
   std::uint64_t of_this_step(bigint seed) const
   {
     return static_cast<std::uint64_t>(seed) + (static_cast<std::uint64_t>(update->ntimestep) << 24);
+  }
+  template <class Space, class B> void keep_in(Space &space, const B &b, bool back)
+  {
+    Liquid::KeepBubbles<B> keep{b, columns_in(space), {}, back};
+    for (int k = 0; k < Liquid::BEFORE_STEP; k++) keep.kept[k] = space.column(before, k);
+    space.for_each(atom->nlocal, keep);
   }
   void check_sizes(double dr) const;
   void entrain();
@@ -87,6 +100,7 @@ void FixBubbleFlow::exchange_in(Space &space,
   using namespace Liquid;
   using B = typename Space::Bubbles;
   work.use(atom->nmax);
+  before.use(atom->nmax);
   const BubbleColumns at = columns_in(space);
   space.for_all(nrows, Interpolate<B, List>{liquid.b,
                                             around,
@@ -97,6 +111,7 @@ void FixBubbleFlow::exchange_in(Space &space,
                                             set.surface});
   Space ours(space);
   ours.groupbit = groupbit;
+  if (dt > 0.0) keep_in(ours, liquid.b, false);
   if (set.turbulence) {
     ours.for_each(atom->nlocal,
                   AddTurbulence<B>{liquid.b, at, liquid.set, of_this_step(turbulence_seed), dt});
@@ -107,6 +122,8 @@ void FixBubbleFlow::exchange_in(Space &space,
     ours.for_each(atom->nlocal, MoveBubbles<B>{liquid.b, at, liquid.set, set, dt});
     events = ours.template totals<BubbleTotals>(atom->nlocal,
                                                 AgeBubbles<B>{liquid.b, at, liquid.set, set, dt});
+    if (entrains)
+      space.for_each(atom->nlocal, KeepEntraining{liquid.c, space.column(dissipates, 0)});
   }
 }
 

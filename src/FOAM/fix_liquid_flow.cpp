@@ -12,6 +12,7 @@
 #include "fix_liquid_flow_loops.h"
 #include "foam_host.h"
 #include "foam_input.h"
+#include "foam_order.h"
 #include "foam_timestep.h"
 #include "foam_variable.h"
 
@@ -19,6 +20,7 @@
 #include "domain.h"
 #include "error.h"
 #include "modify.h"
+#include "output.h"
 #include "update.h"
 
 #include <algorithm>
@@ -108,9 +110,11 @@ FixLiquidFlow::FixLiquidFlow(LAMMPS *lmp, int narg, char **arg) : FixFoamTravell
 
   if (set.published) set.balanced = false;    // of its pressure, alpha p, nothing is known at rest
   time_integrate = 1;
+  force_reneighbor = 1;
+  next_reneighbor = -1;
   nevery = 1;
   vector_flag = 1;
-  size_vector = 8;
+  size_vector = 9;
   extvector = 0;
   global_freq = 1;
   restart_global = 1;
@@ -137,7 +141,8 @@ FixLiquidFlow *FixLiquidFlow::of(LAMMPS *lmp)
 
 int FixLiquidFlow::setmask()
 {
-  return INITIAL_INTEGRATE | FINAL_INTEGRATE | END_OF_STEP | PRE_FORCE;    // the last for set-up
+  return INITIAL_INTEGRATE | PRE_EXCHANGE | FINAL_INTEGRATE | END_OF_STEP |
+         PRE_FORCE;    // the last for set-up
 }
 
 void FixLiquidFlow::init()
@@ -156,6 +161,7 @@ void FixLiquidFlow::init()
   pair->gasbit = gas ? gas->groupbit : 0;
   set.dr = pair->dr;
   set.h0 = pair->h0();
+  check_particles();
   for (int k = 0; k < 3; k++)
     for (int end = 0; end < 2; end++) {
       walls.place[k][end] = end ? domain->boxhi[k] : domain->boxlo[k];
@@ -171,6 +177,25 @@ void FixLiquidFlow::init()
   given_dt = update->dt;
 }
 
+// The operators take each particle for dr^3 of liquid; a bubble is none.
+
+void FixLiquidFlow::check_particles() const
+{
+  constexpr double DIGITS = 1.0e-4;    // of a data file
+  const double mass = set.volume_of_liquid();
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!(atom->mask[i] & groupbit)) continue;
+    if (gas && (atom->mask[i] & gas->groupbit))
+      error->one(FLERR, "Fix liquid/flow: particle {} is in the group of fix bubble/flow, too",
+                 atom->tag[i]);
+    if (!(std::fabs(atom->rmass[i] / mass - 1.0) <= DIGITS))
+      error->one(FLERR,
+                 "Fix liquid/flow: particle {} has mass {}: it must be that of the spacing, DR^3 = "
+                 "{} (set group ID diameter DR density $(6/PI))",
+                 atom->tag[i], atom->rmass[i], mass);
+  }
+}
+
 double FixLiquidFlow::froude() const
 {
   const double *g = set.gravity, square = g[0] * g[0] + g[1] * g[1] + g[2] * g[2];
@@ -180,6 +205,18 @@ double FixLiquidFlow::froude() const
 /* ----------------------------------------------------------------------
    steps
 ------------------------------------------------------------------------- */
+
+// A run from a restart file finds the atoms in another order than the run that wrote it, and on other ranks.  So the first step
+// of a run, and the one after a restart file, put them in an order of their own: then both go on alike, bit by bit.
+
+void FixLiquidFlow::pre_exchange()
+{
+  if (update->ntimestep != next_reneighbor) return;
+  domain->pbc();
+  comm->exchange();
+  order();
+  atom->nextsort = update->ntimestep;    // into bins from there
+}
 
 // The state as it is: all columns for output, and the first step of a run that has none
 
@@ -191,13 +228,16 @@ void FixLiquidFlow::setup_pre_force(int)
 
 void FixLiquidFlow::setup(int)
 {
+  next_reneighbor = update->ntimestep + 1;
   gather(0.0);
   look();
-  const bool first = !(next_dt > 0.0);
-  if (first) next_dt = choose_step();
-  foam_set_timestep(lmp, next_dt);
+  const bool first = !(now.next_dt > 0.0);
+  if (first) now.next_dt = longest_step();
+  if (longest > 0.0) now.next_dt = std::min(now.next_dt, longest);    // of another run, perhaps
   if (first && given.empty() && compute_vector(6) > 0.0) find_pressure();
-  project(next_dt);
+  for (int tries = 1; !solve(now.next_dt); tries++)
+    now.limit = now.next_dt = shorter(now.next_dt, tries);
+  foam_set_timestep(lmp, now.next_dt);
 }
 
 // A pressure of 0 at the start would be that of a liquid that expands as soon as gravity acts: it would fall.  So the first is
@@ -207,36 +247,104 @@ void FixLiquidFlow::find_pressure()
 {
   const double Ma = set.Ma;
   set.Ma *= 1.0e-3;
-  project(next_dt);
+  if (!solve(now.next_dt)) stop(now.next_dt);    // a shorter step would not help
   set.Ma = Ma;
   keep_pressure();
 }
 
 void FixLiquidFlow::initial_integrate(int)
 {
-  advance();
+  advance(update->dt);
 }
 
 void FixLiquidFlow::final_integrate()
 {
   work.use(atom->nmax);
   vectors.use(atom->nmax);
-  done_dt = update->dt;
-  gather(done_dt);
-  project(done_dt);
-  move(done_dt);
+  gather(update->dt);
+  for (int tries = 1; !solve(update->dt); tries++) {
+    begin_again(shorter(update->dt, tries));
+    gather(update->dt);
+  }
+  now.done_dt = update->dt;
+  move(now.done_dt);
+}
+
+// The pressure: whether it was found.  Where there is no surface that of an incompressible liquid has no level.  There it is
+// compressible by so little that velocities do not tell.
+
+bool FixLiquidFlow::solve(double dt)
+{
+  constexpr double LEAST_MA = 1.0e-3;
+  const double Ma = set.Ma;
+  if (Ma < LEAST_MA && !(compute_vector(6) > 0.0)) set.Ma = LEAST_MA;
+  project(dt);
+  set.Ma = Ma;
+  return solved.end == Liquid::Solved::CONVERGED;
+}
+
+// A step in which it was not found is done again with half of its length: the matrix is then closer to a diagonal one.
+
+double FixLiquidFlow::shorter(double dt, int tries) const
+{
+  constexpr int MOST = 8;
+  if (tries > MOST) stop(dt);
+  return 0.5 * dt;
+}
+
+void FixLiquidFlow::stop(double dt) const
+{
+  error->all(FLERR,
+             "Fix liquid/flow: the pressure was not found at step {} with a timestep of {}: "
+             "residual {} after {} iterations, wanted {} in at most {}",
+             update->ntimestep, dt, solved.residual, solved.iterations, tolerance, most_iterations);
+}
+
+// from x* back to where a shorter step leads
+
+void FixLiquidFlow::begin_again(double dt)
+{
+  const double back = dt - update->dt;
+  if (gas) {
+    gas->go_back();
+    gas->advance(back);
+  }
+  advance(back);
+  comm->forward_comm();
+  foam_shorten_timestep(lmp, dt);
+  now.limit = dt;
+  now.repeated += 1.0;
 }
 
 void FixLiquidFlow::end_of_step()
 {
-  next_dt = choose_step();
-  foam_set_timestep(lmp, next_dt);
+  now.next_dt = choose_step();
+  foam_set_timestep(lmp, now.next_dt);
+  if (!(update->atime + now.next_dt > update->atime))
+    error->all(FLERR, "Fix liquid/flow: the timestep at step {} is {}: time {} does not go on",
+               update->ntimestep, now.next_dt, update->atime);
+  if (update->ntimestep != output->next_restart) return;
+  domain->pbc();    // as who reads the file does
+  next_reneighbor = update->ntimestep + 1;
 }
+
+// After a step that was repeated they grow slowly
 
 double FixLiquidFlow::choose_step()
 {
-  double mine[3] = {speeds.speed, totals.nu, totals.gas}, all[3];
-  MPI_Allreduce(mine, all, 3, MPI_DOUBLE, MPI_MAX, world);
+  constexpr double GROWTH = 1.2;
+  const double step = longest_step();
+  if (!(now.limit > 0.0)) return step;
+  now.limit = GROWTH * now.done_dt;
+  if (now.limit < step) return now.limit;
+  now.limit = 0.0;
+  return step;
+}
+
+double FixLiquidFlow::longest_step()
+{
+  double mine[4] = {speeds.speed, totals.nu, totals.gas, gas ? gas->fastest() : 0.0}, all[4];
+  MPI_Allreduce(mine, all, 4, MPI_DOUBLE, MPI_MAX, world);
   if (!told_of_gas && all[2] >= Liquid::MOST_GAS) {
     told_of_gas = true;
     if (comm->me == 0)
@@ -246,26 +354,30 @@ double FixLiquidFlow::choose_step()
                      update->ntimestep, Liquid::MOST_GAS);
   }
   const double *g = set.gravity;
-  const double step = Liquid::longest_step(set.h0, std::sqrt(all[0]), set.Re, all[1],
-                                           std::sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]));
+  const double step =
+      Liquid::longest_step(set.h0, std::sqrt(all[0]), std::sqrt(all[3]), set.Re, all[1],
+                           std::sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]));
   return longest > 0.0 ? std::min(step, longest) : step;
 }
 
 void FixLiquidFlow::post_run()
 {
-  const double next = next_dt;
   foam_set_timestep(lmp, given_dt);
-  next_dt = next;
 }
 
 /* ----------------------------------------------------------------------
    loops
 ------------------------------------------------------------------------- */
 
-void FixLiquidFlow::advance()
+void FixLiquidFlow::advance(double dt)
 {
   FoamHost space(lmp, groupbit);
-  advance_in(space);
+  advance_in(space, dt);
+}
+
+void FixLiquidFlow::order()
+{
+  foam_order_by_tag(lmp);
 }
 
 void FixLiquidFlow::look()
@@ -308,15 +420,6 @@ Liquid::Matrix<true> FixLiquidFlow::HostRoom::matrix(size_t rows, size_t width)
   return {entries.data(), columns.data(), sizes.data(), rows, width};
 }
 
-void FixLiquidFlow::check(const Liquid::Solved &its) const
-{
-  if (its.end == Liquid::Solved::CONVERGED) return;
-  error->all(FLERR,
-             "Fix liquid/flow: the pressure was not found at step {}: residual {} after {} "
-             "iterations, wanted {} in at most {}",
-             update->ntimestep, its.residual, its.iterations, tolerance, most_iterations);
-}
-
 /* ----------------------------------------------------------------------
    columns of ghosts
 ------------------------------------------------------------------------- */
@@ -355,13 +458,14 @@ void FixLiquidFlow::unpack_forward_comm(int n, int first, double *buf)
 double FixLiquidFlow::compute_vector(int n)
 {
   const double mine[] = {speeds.kinetic, totals.dissipated, totals.surface, totals.volume_of_gas};
+  if (n == 8) return now.repeated;
   if (n >= 4) {
     double all;
     MPI_Allreduce(&mine[n - 4], &all, 1, MPI_DOUBLE, MPI_SUM, world);
     return all;
   }
   if (n == 0) return update->atime;
-  if (n == 1) return next_dt;
+  if (n == 1) return now.next_dt;
   if (n == 2) return solved.iterations;
   return solved.residual;
 }
@@ -369,12 +473,12 @@ double FixLiquidFlow::compute_vector(int n)
 void FixLiquidFlow::write_restart(FILE *fp)
 {
   if (comm->me != 0) return;
-  const int size = sizeof(next_dt);
+  const int size = sizeof(now);
   fwrite(&size, sizeof(int), 1, fp);
-  fwrite(&next_dt, size, 1, fp);
+  fwrite(&now, size, 1, fp);
 }
 
 void FixLiquidFlow::restart(char *buf)
 {
-  next_dt = *(const double *) buf;
+  now = *(const Progress *) buf;
 }

@@ -41,6 +41,7 @@ class FixLiquidFlow : public FixFoamTravelling {
   void setup_pre_force(int) override;
   void setup(int) override;
   void initial_integrate(int) override;
+  void pre_exchange() override;
   void final_integrate() override;
   void end_of_step() override;
   void post_run() override;
@@ -56,7 +57,7 @@ class FixLiquidFlow : public FixFoamTravelling {
   FoamColumns state{all_columns, "state of the liquid", STATE, TRAVELS};
   Liquid::Walls walls;
   double froude() const;    // 0: no gravity
-  double last_step() const { return done_dt; }
+  double last_step() const { return now.done_dt; }
   double entraining() const { return totals.entraining; }    // particles of this rank
   const Liquid::Setting &setting() const { return set; }
   FoamColumns work{all_columns, "columns of the liquid", Liquid::COLUMNS,
@@ -69,7 +70,8 @@ class FixLiquidFlow : public FixFoamTravelling {
 
   virtual void look();    // at velocities
   virtual void keep_pressure();
-  virtual void advance();
+  virtual void advance(double dt);
+  virtual void order();              // of the atoms of this rank
   virtual void gather(double dt);    // 0: bubbles keep their velocities
   virtual void project(double dt);
   virtual void move(double dt);
@@ -90,7 +92,7 @@ class FixLiquidFlow : public FixFoamTravelling {
 
   template <class Space> void look_in(Space &);
   template <class Space> void keep_pressure_in(Space &);
-  template <class Space> void advance_in(Space &);
+  template <class Space> void advance_in(Space &, double dt);
   template <class Space, class Rows> void gather_in(Space &, const Rows &, double dt);
   template <class Space, class Rows, class Room>
   void project_in(Space &, const Rows &, Room &, double dt);
@@ -114,16 +116,25 @@ class FixLiquidFlow : public FixFoamTravelling {
 
   double tolerance = 1.0e-6, longest = 0.0, given_dt = 0.0;
   int most_iterations = 1000;
-  double next_dt = 0.0;    // 0: not yet known
-  double done_dt = 0.0;    // of the last step
+  struct Progress {          // kept in restart files
+    double next_dt = 0.0;    // 0: not yet known
+    double done_dt = 0.0;    // of the last step
+    double limit = 0.0;      // of the next one, after a step was repeated; 0: none
+    double repeated = 0.0;
+  } now;
   Liquid::GatherTotals totals;
   Liquid::SpeedTotals speeds;    // of this rank
   Liquid::Solved solved;
   bool told_of_gas = false;
 
+  double longest_step();
   double choose_step();
   void find_pressure();
-  void check(const Liquid::Solved &) const;
+  bool solve(double dt);
+  double shorter(double dt, int tries) const;
+  void stop(double dt) const;
+  void begin_again(double dt);
+  void check_particles() const;
 };
 
 }    // namespace LAMMPS_NS

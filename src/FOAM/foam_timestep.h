@@ -20,17 +20,36 @@
 
 namespace LAMMPS_NS {
 
-// The timestep from now on, after the end of a step: as fix dt/reset does
+// Who keeps the timestep hears of a new one, as from fix dt/reset
 
-inline void foam_set_timestep(LAMMPS *lmp, double step)
+inline void foam_tell_timestep(LAMMPS *lmp, double step)
 {
-  if (lmp->update->dt == step) return;
-  lmp->update->update_time();
   lmp->update->dt = step;
   lmp->update->dt_default = 0;
   if (lmp->force->pair) lmp->force->pair->reset_dt();
   for (auto &fix : lmp->modify->get_fix_list()) fix->reset_dt();
   lmp->output->reset_dt();
+}
+
+// The timestep from now on, after the end of a step.  The time is brought up to date if it is the same, too: a run from a
+// restart file takes the time in it for that of its first step.
+
+inline void foam_set_timestep(LAMMPS *lmp, double step)
+{
+  lmp->update->update_time();
+  if (lmp->update->dt == step) return;
+  foam_tell_timestep(lmp, step);
+}
+
+// The step that is under way ends sooner
+
+inline void foam_shorten_timestep(LAMMPS *lmp, double step)
+{
+  Update &update = *lmp->update;
+  const bigint begun = update.ntimestep - 1;
+  update.atime += static_cast<double>(begun - update.atimestep) * update.dt;
+  update.atimestep = begun;
+  foam_tell_timestep(lmp, step);
 }
 
 }    // namespace LAMMPS_NS

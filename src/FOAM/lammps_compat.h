@@ -7,10 +7,11 @@
 #include "atom_vec.h"
 #else
 namespace LAMMPS_NS {
-// the one non-virtual member that fixes need to remove atoms; the symbol is exported
+// what fixes need to remove atoms and to order them; these symbols are exported
 class AtomVec {
  public:
   void copy(int, int, int);
+  void grow(int);
 };
 }    // namespace LAMMPS_NS
 #endif

@@ -55,6 +55,7 @@ enum BubbleState {
   GONE,     // 1 once it has burst
   BUBBLE_STATES
 };
+inline constexpr int BEFORE_STEP = 3 + BUBBLE_STATES;    // velocities, too
 
 struct BubbleColumns {
   double *at[AT_BUBBLES], *kept[BUBBLE_STATES];
@@ -185,6 +186,7 @@ template <class B> struct AddTurbulence {
 struct OnBubble {
   double drag;    // F_d = drag (u_l - u_b)
   double lift[3], buoyancy[3];
+  double other[3];         // by pair styles and fixes
   double volume, added;    // and beta C_vm V_b, of the virtual mass
   double speed;            // |u_rel|
 
@@ -207,6 +209,7 @@ struct OnBubble {
       const int l = (k + 1) % 3, m = (k + 2) % 3;
       lift[k] = factor * (relative[l] * at(CURL + m, i) - relative[m] * at(CURL + l, i));
       buoyancy[k] = (1.0 - wet * gas.beta) * volume * set.gravity[k];
+      other[k] = gas.beta * b.f(i, k);
     }
   }
 };
@@ -228,7 +231,7 @@ template <class B> struct BubbleForces {
       const double l = at(LIFT_FORCE + k, i) = on.lift[k], dudt = at(LIQUID_ACCELERATION + k, i);
       at(BUOYANCY + k, i) = on.buoyancy[k];
       const double acceleration = at(BUBBLE_ACCELERATION + k, i) =
-          (d + l + on.buoyancy[k] + on.added * dudt) / (on.volume + on.added);
+          (d + l + on.buoyancy[k] + on.other[k] + on.added * dudt) / (on.volume + on.added);
       const double v = at(VIRTUAL + k, i) = on.added * (dudt - acceleration);
       at(REACTION + k, i) = -(d + l + v) / gas.beta;
     }
@@ -238,10 +241,45 @@ template <class B> struct BubbleForces {
 
 struct BubbleTotals {
   Foam::FoamSum gone, broken;
+  Foam::FoamMax speed;    // squared
   FOAM_FUNCTION void join(const BubbleTotals &other)
   {
     gone.join(other.gone);
     broken.join(other.broken);
+    speed.join(other.speed);
+  }
+};
+
+// Bubbles as they were before a step, which may be repeated
+
+template <class B> struct KeepBubbles {
+  static constexpr const char *NAME = "liquid: keep bubbles";
+  B b;
+  BubbleColumns at;
+  double *kept[BEFORE_STEP];
+  bool back;    // from there
+  FOAM_FUNCTION void operator()(int i) const
+  {
+    for (int k = 0; k < BEFORE_STEP; k++) {
+      double &now = k < 3 ? b.v(i, k) : at.state(k - 3, i);
+      if (back)
+        now = kept[k][i];
+      else
+        kept[k][i] = now;
+    }
+  }
+};
+
+// What a surface dissipates that entrains bubbles
+
+struct KeepEntraining {
+  static constexpr const char *NAME = "liquid: entraining surface";
+  Columns c;
+  double *dissipates;
+  FOAM_FUNCTION void operator()(int i) const
+  {
+    const bool does = c(SURFACE, i) > 0.0 && entrains(c(EPSILON, i), c(ALPHA, i));
+    dissipates[i] = does ? c(EPSILON, i) : 0.0;
   }
 };
 
@@ -258,6 +296,9 @@ template <class B> struct AgeBubbles {
   FOAM_FUNCTION void operator()(int i, BubbleTotals &all) const
   {
     const double a = b.radius(i), eps = at(EPS_B, i);
+    double speed = 0.0;
+    for (int k = 0; k < 3; k++) speed += b.v(i, k) * b.v(i, k);
+    all.speed.raise(speed);
     at.state(AGE, i) += dt;
     at.state(STRESSED, i) += eps * dt;
     if (gas.breaks) {
@@ -327,7 +368,7 @@ template <class B> struct MoveBubbles {
       for (int k = 0; k < 3; k++) {
         const double dudt = at(LIQUID_ACCELERATION + k, i), u = velocity[k];
         const double fs = at_surface * normal[k];
-        const double others = on.lift[k] + on.buoyancy[k] + on.added * dudt + fs;
+        const double others = on.lift[k] + on.buoyancy[k] + on.other[k] + on.added * dudt + fs;
         velocity[k] = (u + step / mass * (others + on.drag * at(FLOW + k, i))) /
                       (1.0 + step * on.drag / mass);
         reaction[k] -= on.drag * (at(FLOW + k, i) - velocity[k]) + on.lift[k] + fs +
@@ -350,7 +391,7 @@ template <class B> struct MoveBubbles {
     double force = 0.0;
     for (int k = 0; k < 3; k++) {
       const double relative = at(FLOW + k, i) - velocity[k];
-      const double others = on.buoyancy[k] + on.drag * relative + on.lift[k] +
+      const double others = on.buoyancy[k] + on.other[k] + on.drag * relative + on.lift[k] +
                             on.added * at(LIQUID_ACCELERATION + k, i);
       force += normal[k] * ((on.volume + on.added) * relative / left - others);
     }

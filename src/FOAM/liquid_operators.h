@@ -316,10 +316,8 @@ template <class B, class List> struct Predict : Loop<B, List> {
       for (int k = 0; k < 3; k++) sum[k] += weight * (u[k] - image.velocity(this->b.v(j, k), k));
     });
     double kept = 1.0;
-    if (this->set.published && smoothing[i] > 0.0) {
-      const double ratio = this->set.h0 / smoothing[i];
-      kept = ratio * ratio * ratio / c(ALPHA, i);
-    }
+    if (this->set.published && smoothing[i] > 0.0)
+      kept = fraction_of_length(this->set.h0, smoothing[i]) / c(ALPHA, i);
     for (int k = 0; k < 3; k++) {
       c(VISCOUS + k, i) = sum[k] / this->set.Re;
       c(STAR + k, i) = kept * u[k] + dt / c(ALPHA, i) * (c(VISCOUS + k, i) + c(BY_BUBBLES + k, i)) +

@@ -112,6 +112,11 @@ FOAM_FUNCTION double smoothing_length(double h0, double alpha)
 {
   return h0 / std::cbrt(alpha);
 }
+FOAM_FUNCTION double fraction_of_length(double h0, double h)    // alpha again
+{
+  const double ratio = h0 / h;
+  return ratio * ratio * ratio;
+}
 
 // sum_j V_j (r_j - r_i) . grad W is 3 inside
 
@@ -174,15 +179,18 @@ FOAM_FUNCTION double dissipation(double Re, double nu_S, double S)
 
 // ---------------------------------------------------------------------- step
 
-// No particle goes further than 0.2 h in a step, nor does momentum diffuse further [K23 (3.15)]; the third limit is ours,
-// for a liquid that begins at rest: nothing falls further than that either.
+// No particle goes further than 0.2 h in a step, nor does momentum diffuse further [K23 (3.15)].  Two limits are ours: for a
+// liquid that begins at rest, nothing falls further than that either; and no bubble leaves what is around it, 2 h, within a few
+// steps.
 
-inline constexpr double COURANT = 0.2;
+inline constexpr double COURANT = 0.2, COURANT_OF_BUBBLES = 0.5;
 
-FOAM_FUNCTION double longest_step(double h, double speed, double Re, double nu, double gravity)
+FOAM_FUNCTION double longest_step(double h, double speed, double of_bubbles, double Re, double nu,
+                                  double gravity)
 {
   double step = COURANT * Re * h * h / (1.0 + nu);
   if (speed > 0.0) step = std::fmin(step, COURANT * h / speed);
+  if (of_bubbles > 0.0) step = std::fmin(step, COURANT_OF_BUBBLES * h / of_bubbles);
   if (gravity > 0.0) step = std::fmin(step, COURANT * std::sqrt(h / gravity));
   return step;
 }

@@ -11,8 +11,6 @@
 
 #include "fix_liquid_flow.h"
 
-#include "kokkos.h"
-
 using namespace LAMMPS_NS;
 
 template <class DeviceType>
@@ -28,28 +26,22 @@ template <class DeviceType> void FixBubbleFlowKokkos<DeviceType>::init()
   FixBubbleFlow::init();
 }
 
-template <class DeviceType> void FixBubbleFlowKokkos<DeviceType>::initial_integrate(int)
+template <class DeviceType> void FixBubbleFlowKokkos<DeviceType>::advance(double dt)
 {
   using B = typename FoamKokkos<DeviceType>::Bubbles;
-  space.for_each(
-      this->atom->nlocal,
-      Liquid::Advance<B>{space.bubbles(), FixLiquidFlow::of(this->lmp)->walls, this->update->dt});
+  space.for_each(this->atom->nlocal,
+                 Liquid::Advance<B>{space.bubbles(), FixLiquidFlow::of(this->lmp)->walls, dt});
 }
 
-// Arrays that grow when a bubble is born bring the host's numbers along if they are known to be the last ones
+template <class DeviceType> void FixBubbleFlowKokkos<DeviceType>::go_back()
+{
+  this->go_back_in(space);
+}
 
 template <class DeviceType> void FixBubbleFlowKokkos<DeviceType>::pre_exchange()
 {
   if (this->next_reneighbor != this->update->ntimestep) return;
-  AtomKokkos *const atoms = this->atomKK;
-  int &auto_sync = this->lmp->kokkos->auto_sync;
-  const int before = auto_sync;
-  auto_sync = 1;
-  atoms->sync(Host, ALL_MASK);
-  atoms->modified(Host, ALL_MASK);
-  FixBubbleFlow::pre_exchange();
-  atoms->modified(Host, ALL_MASK);
-  auto_sync = before;
+  foam_on_host(this->lmp, [&] { FixBubbleFlow::pre_exchange(); });
 }
 
 template <class DeviceType> double FixBubbleFlowKokkos<DeviceType>::compute_vector(int n)

@@ -30,7 +30,8 @@ class FixBubbleFlowKokkos : public FoamTravellingKokkos<FixBubbleFlow, DeviceTyp
  public:
   FixBubbleFlowKokkos(class LAMMPS *, int, char **);
   void init() override;
-  void initial_integrate(int) override;
+  void advance(double dt) override;
+  void go_back() override;
   void pre_exchange() override;
   double compute_vector(int) override;
 

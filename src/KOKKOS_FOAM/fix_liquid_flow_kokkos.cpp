@@ -55,9 +55,14 @@ template <class DeviceType> void FixLiquidFlowKokkos<DeviceType>::keep_pressure(
   this->keep_pressure_in(space);
 }
 
-template <class DeviceType> void FixLiquidFlowKokkos<DeviceType>::advance()
+template <class DeviceType> void FixLiquidFlowKokkos<DeviceType>::advance(double dt)
 {
-  this->advance_in(space);
+  this->advance_in(space, dt);
+}
+
+template <class DeviceType> void FixLiquidFlowKokkos<DeviceType>::order()
+{
+  foam_on_host(this->lmp, [&] { FixLiquidFlow::order(); });
 }
 
 template <class DeviceType> void FixLiquidFlowKokkos<DeviceType>::gather(double dt)

@@ -37,7 +37,8 @@ class FixLiquidFlowKokkos : public FoamTravellingKokkos<FixLiquidFlow, DeviceTyp
   using FoamTravellingKokkos<FixLiquidFlow, DeviceType>::space;
   void look() override;
   void keep_pressure() override;
-  void advance() override;
+  void advance(double dt) override;
+  void order() override;
   void gather(double dt) override;
   void project(double dt) override;
   void move(double dt) override;

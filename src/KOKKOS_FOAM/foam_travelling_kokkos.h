@@ -12,6 +12,7 @@
 
 #include "foam_kokkos.h"
 
+#include "kokkos.h"
 #include "kokkos_base.h"
 
 namespace LAMMPS_NS {
@@ -59,6 +60,22 @@ template <class DeviceType> struct FoamUnpackExchange {
     for (int c = 0; c < all.count; c++) all.column(c)[i] = from[c];
   }
 };
+
+// Atoms are born, taken out and put in order on the host.  Arrays that grow meanwhile bring its numbers along if they are known
+// to be the last ones.
+
+template <class Work> void foam_on_host(LAMMPS *lmp, const Work &work)
+{
+  auto *const atoms = static_cast<AtomKokkos *>(lmp->atom);
+  int &auto_sync = lmp->kokkos->auto_sync;
+  const int before = auto_sync;
+  auto_sync = 1;
+  atoms->sync(Host, ALL_MASK);
+  atoms->modified(Host, ALL_MASK);
+  work();
+  atoms->modified(Host, ALL_MASK);
+  auto_sync = before;
+}
 
 // A fix on a device: Style, with its columns there, which travel with the bubbles without a detour to the host.
 // Changes: see FoamKokkos.

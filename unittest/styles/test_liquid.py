@@ -54,7 +54,7 @@ def state(name):
     zeros = np.zeros(n + m)
     before = [both(key, np.zeros(m)) for key in ("p", "dudt_x", "dudt_y", "dudt_z")]
     return (f"a liquid with bubbles\n\n{n + m} atoms\n2 atom types\n\n0 1 xlo xhi\n0 1 ylo yhi\n0 1 zlo zhi\n\n"
-            f"Atoms # sphere\n\n{lines(ids, kinds, diameters, zeros + 1, *places)}\n"
+            f"Atoms # sphere\n\n{lines(ids, kinds, diameters, zeros + 6 / np.pi, *places)}\n"
             f"Velocities\n\n{lines(ids, *speeds, zeros, zeros, zeros)}\nBefore\n\n{lines(ids, *before)}")
 
 

@@ -1,0 +1,171 @@
+"""Steps of a resolved liquid: how a run goes on from a restart file, what is done where the pressure is not found, and
+how steps are chosen at the extremes."""
+
+import re
+
+import numpy as np
+import pytest
+
+from test_liquid import TANK, VORTEX
+from test_liquid_bubbles import BREAKING, one, tank
+
+# ---- restart ------------------------------------------------------------------------------------
+
+MANY = "create_atoms 2 random 30 771 full overlap 0.02 maxtry 1000"
+DRIFT = """displace_atoms all random 0.01 0.01 0.01 77 units box
+variable ux atom 1+sin(7*z)
+variable uy atom 0.2*cos(8*x)-0.5
+variable uz atom 0.3*cos(8*y)
+velocity water set v_ux v_uy v_uz"""    # through the sides of a periodic box
+SCENES = {
+    "liquid": dict(),
+    "steps alike": dict(velocity="", dt=0.002),
+    "bubbles": dict(create=MANY, gas="surface yes langevin 7"),
+    "born": dict(create=MANY, gas="surface yes langevin 7",
+                 more="fix s gas bubble/sparger 0.4 0.4 0.25 0.1 1e-3 normal 0.012 0.004 0.006 seed 3\n"),
+    "broken": dict(create=MANY.replace(" 30 ", " 10 "), diameter=0.04, velocity=BREAKING, We=1e6, dt=0.002,
+                   gas="surface no breakup 5"),
+    "entrained": dict(velocity=BREAKING, dt=0.002, gas="surface yes entrain 9"),
+}
+COLUMNS = ("id", "type", "x", "y", "z", "vx", "vy", "vz", "radius", "c_c[1]", "c_c[2]", "c_c[3]", "c_c[4]")
+LOOK = """
+compute c all liquid/particle p k c surface
+dump d all custom 1 dump.* id type x y z vx vy vz radius c_c[*]
+dump_modify d sort id format float %.17g
+thermo_style custom step time f_l[2] f_b[*]
+thermo_modify norm no format float %.17g
+thermo 1
+"""
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+@pytest.mark.parametrize("name", SCENES)
+def test_restart(bitwise_lmp, name, ranks):
+    """A restarted run goes on bit by bit: particles, bubbles, those that are born and break, and the steps. What is
+    counted is a sum over ranks; time is added up anew."""
+    n = 30 if name == "broken" else 10    # until then some have
+    look = f"{LOOK}restart {n} state.*\nrun {{}}\n"
+    text = tank(**{"velocity": DRIFT, **SCENES[name]})
+    whole = bitwise_lmp(text + look.format(3 * n), ranks=ranks)
+    head, tail = text[:text.index("lattice")], text[text.index("pair_style"):]
+    again = bitwise_lmp(f"{head}read_restart {whole.directory}/state.{2 * n}\n{tail}{look.format(n)}", ranks=ranks)
+    for step in range(2 * n + 1, 3 * n + 1):
+        ours, theirs = (result.dump(f"dump.{step}")[0] for result in (whole, again))
+        for column in COLUMNS:
+            assert np.array_equal(ours[column], theirs[column]), (step, column)
+    for column, theirs in again.thermo[0].items():
+        ours, theirs = whole.thermo[0][column][2 * n + 1:], theirs[1:]
+        assert theirs == pytest.approx(ours, rel=1e-13, abs=1e-300), column
+    last = {key: value[-1] for key, value in again.thermo[0].items()}
+    if name == "broken":
+        assert last["f_b[4]"] > 0
+    if name in ("born", "entrained"):
+        assert last["f_b[1]"] > 35
+
+
+# ---- what is done again -------------------------------------------------------------------------
+
+COUNT = """
+thermo_style custom step time f_l[2] f_l[3] f_l[9]
+thermo_modify norm no format float %.17g
+thermo 1
+"""
+
+
+def calm(dt=1.0, most=1000):
+    """A scene at which the solver has more to do in a later step than in all before."""
+    text = tank(create=MANY, gas="surface yes langevin 7 breakup 5", dt=dt,
+                velocity="variable ux atom 0.05*sin(7*z)\nvelocity water set v_ux 0 0")
+    text = text.replace("dtmax", f"pressure v_p solver 1.0e-6 {most} dtmax")
+    return text.replace("pair_style", "variable p atom 0.95-z\npair_style", 1)
+
+
+def test_a_repeated_step_is_a_shorter_one(bitwise_lmp):
+    """Where the pressure is not found a step is done again with half of its length, from where it began: places,
+    velocities, and what bubbles keep. Another run that takes this length at once, from a restart file, agrees, up to
+    where the solver ends: 1e-6 of the pressure. Later steps are 1.2 times the one before, until one is as long as
+    the flow allows."""
+    look = """
+dump d all custom 1 dump.* id x y z vx vy vz
+dump_modify d sort id format float %.17g
+""" + COUNT
+    free = bitwise_lmp(calm() + look + "run 30\n").thermo[0]
+    needed = free["f_l[3]"]
+    n = next(n for n in range(3, 31) if needed[n] > needed[:n].max())
+    cut = bitwise_lmp(calm(most=int(needed[n]) - 1) + look + f"restart {n - 1} state.*\nrun {n}\n")
+    table = cut.thermo[0]
+    repeated, taken = table["f_l[9]"][n], table["Time"][n] - table["Time"][n - 1]
+    assert repeated > 0 and table["f_l[9]"][n - 1] == 0
+    assert taken == pytest.approx(table["f_l[2]"][n - 1] / 2**repeated, rel=1e-12)
+    assert table["f_l[2]"][n] == pytest.approx(1.2 * taken, rel=1e-12)
+
+    text = calm(dt=taken)
+    head, tail = text[:text.index("lattice")], text[text.index("variable p atom"):]
+    short = bitwise_lmp(f"{head}read_restart {cut.directory}/state.{n - 1}\n{tail.replace('pressure v_p', '')}{look}run 1\n")
+    assert short.thermo[0]["f_l[9]"][1] == 0
+    for column in ("x", "y", "z", "vx", "vy", "vz"):
+        ours, theirs = (result.dump(f"dump.{n}")[0][column] for result in (cut, short))
+        assert ours == pytest.approx(theirs, rel=0, abs=1e-9), column
+
+
+def test_a_pressure_that_is_never_found(lmp):
+    result = lmp(tank(velocity=DRIFT).replace("dtmax", "solver 1.0e-14 1 dtmax") + "run 2\n", check=False)
+    assert any(re.search("pressure was not found at step 0 with a timestep of .*: residual .* after 1 iterations, "
+                         "wanted 1e-14 in at most 1", line) for line in result.errors), result.errors
+
+
+# ---- steps at the extremes ----------------------------------------------------------------------
+
+def test_incompressible_without_a_surface(lmp):
+    """The pressure has no level then; velocities are those of a liquid that is nearly so."""
+    speeds = []
+    for Ma in "0.0", "0.01":
+        frame = lmp(VORTEX.format(n=8, Re=100, more=f"ma {Ma} dtmax 1e-2") + """
+dump d all custom 20 dump id vx vy vz
+dump_modify d sort id format float %.17g
+run 20
+""").dump("dump")[-1]
+        speeds.append(frame.array("vx", "vy", "vz"))
+    assert speeds[0] == pytest.approx(speeds[1], rel=0, abs=1e-4 * np.abs(speeds[1]).max())
+
+
+def test_fast_bubbles_shorten_steps(lmp):
+    """None goes further than h/2 in a step."""
+    h = 1.3 / 10
+    table = lmp(tank(create=one(0.41, 0.37, 0.5), velocity="velocity gas set 0 0 20", gas="surface no drag no", dt=1.0)
+                + COUNT + "compute speed gas reduce max vz\nthermo_style custom step f_l[2] c_speed\nrun 3\n").thermo[0]
+    assert (table["f_l[2]"][1:] <= 0.5 * h / table["c_speed"][1:] * (1 + 1e-12)).all()
+
+
+def test_forces_on_bubbles(lmp):
+    """Those of other fixes and pair styles act on bubbles: twice the buoyancy is another terminal velocity. In the
+    units of the liquid buoyancy is V (1 - 1/beta)."""
+    a, Re, beta = 0.01, 1000, 800.0
+    volume = 4 / 3 * np.pi * a**3
+    frame = lmp(tank(create=one(0.41, 0.37, 0.3), gas="surface no lift no", more=f"""
+fix push gas addforce 0 0 {volume * (1 - 1 / beta)}
+compute d gas bubble/flow ulx uly ulz
+dump d gas custom 30 dump id vx vy vz c_d[*]
+dump_modify d format float %.17g
+run 30
+""")).dump("dump")[-1]
+    relative = frame["vz"][0] - frame["c_d[3]"][0]
+    Re_b = 2 * a * relative * Re
+    drag = 0.5 * 24 / Re_b * (1 + 0.15 * Re_b**0.687) * np.pi * a**2 * relative**2
+    assert drag == pytest.approx(2 * volume * (1 - 1 / beta), rel=0.01)
+
+
+@pytest.mark.parametrize("change, error", [
+    ("set group water density 1.0", "particle 1 has mass .* it must be that of the spacing, DR.3 = 0.001"),
+    ("group gas type 1", "particle 1 is in the group of fix bubble/flow, too"),
+])
+def test_particles_that_are_none(lmp, change, error):
+    result = lmp(tank() + f"{change}\nrun 1\n", check=False)
+    assert any(re.search(error, line) for line in result.errors), result.errors
+
+
+def test_time_that_stands_still(lmp):
+    text = TANK.format(wall="slip", more="dtmax 1e-18") + "timestep 1.0\nvelocity all set 0 0 0\n"
+    result = lmp(text + "run 1\nundump d\nreset_timestep 0 time 1000\nrun 3\n", check=False)
+    assert any(re.search("Fix liquid/flow: the timestep at step .* is 1e-18: time 1000 does not go on", line)
+               for line in result.errors), result.errors
