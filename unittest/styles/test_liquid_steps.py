@@ -101,7 +101,8 @@ dump_modify d sort id format float %.17g
 
     text = calm(dt=taken)
     head, tail = text[:text.index("lattice")], text[text.index("variable p atom"):]
-    short = bitwise_lmp(f"{head}read_restart {cut.directory}/state.{n - 1}\n{tail.replace('pressure v_p', '')}{look}run 1\n")
+    tail = tail.replace("pressure v_p", "")
+    short = bitwise_lmp(f"{head}read_restart {cut.directory}/state.{n - 1}\n{tail}{look}run 1\n")
     assert short.thermo[0]["f_l[9]"][1] == 0
     for column in ("x", "y", "z", "vx", "vy", "vz"):
         ours, theirs = (result.dump(f"dump.{n}")[0][column] for result in (cut, short))
