@@ -58,6 +58,15 @@ FixBubbleFlow::FixBubbleFlow(LAMMPS *lmp, int narg, char **arg) : FixFoamTravell
                    [&](const Value &v) {
                      set.surface = yes_or_no(v);
                    }},
+                  {"viscosity",
+                   [&](const Value &v) {
+                     set.viscosity = static_cast<Liquid::BubbleSetting::Viscosity>(
+                         v.one_of({"none", "sato", "published"}));
+                   }},
+                  {"persist",
+                   [&](const Value &v) {
+                     set.lasts = v.number(FoamInput::AT_LEAST, 0.0);
+                   }},
                   {"langevin",
                    [&](const Value &v) {
                      turbulence_seed = v.count();

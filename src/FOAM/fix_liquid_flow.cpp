@@ -270,14 +270,15 @@ void FixLiquidFlow::final_integrate()
   move(now.done_dt);
 }
 
-// The pressure: whether it was found.  Where there is no surface that of an incompressible liquid has no level.  There it is
-// compressible by so little that velocities do not tell.
+// The pressure: whether it was found.  Without a surface it has no level.  It is then kept without its mean, which would grow
+// step by step; and an incompressible liquid is compressible by so little that velocities do not tell.
 
 bool FixLiquidFlow::solve(double dt)
 {
   constexpr double LEAST_MA = 1.0e-3;
   const double Ma = set.Ma;
-  if (Ma < LEAST_MA && !(compute_vector(6) > 0.0)) set.Ma = LEAST_MA;
+  without_level = !(compute_vector(6) > 0.0);
+  if (without_level) set.Ma = std::max(Ma, LEAST_MA);
   project(dt);
   set.Ma = Ma;
   return solved.end == Liquid::Solved::CONVERGED;

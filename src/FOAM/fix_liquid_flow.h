@@ -53,7 +53,7 @@ class FixLiquidFlow : public FixFoamTravelling {
   void write_restart(FILE *) override;
   void restart(char *) override;
 
-  enum { PRESSURE, ACCELERATION, SMOOTHING = ACCELERATION + 3, STATE };
+  enum { PRESSURE, OLDER, ACCELERATION, SMOOTHING = ACCELERATION + 3, STATE };
   FoamColumns state{all_columns, "state of the liquid", STATE, TRAVELS};
   Liquid::Walls walls;
   double froude() const;    // 0: no gravity
@@ -125,6 +125,8 @@ class FixLiquidFlow : public FixFoamTravelling {
   Liquid::GatherTotals totals;
   Liquid::SpeedTotals speeds;    // of this rank
   Liquid::Solved solved;
+  bool without_level = false;    // of the pressure: there is no surface.  Then it is its mean:
+  double level = 0.0;
   bool told_of_gas = false;
 
   double longest_step();

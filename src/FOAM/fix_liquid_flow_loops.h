@@ -38,8 +38,8 @@ template <class Space> void FixLiquidFlow::look_in(Space &space)
 
 template <class Space> void FixLiquidFlow::keep_pressure_in(Space &space)
 {
-  space.for_each(atom->nlocal, Liquid::CopyPressure{space.column(work, Liquid::SOLUTION),
-                                                    space.column(state, PRESSURE)});
+  space.for_each(atom->nlocal,
+                 Liquid::Copy{space.column(work, Liquid::SOLUTION), space.column(state, PRESSURE)});
 }
 
 template <class Space> void FixLiquidFlow::move_in(Space &space, double dt)
@@ -52,9 +52,11 @@ template <class Space> void FixLiquidFlow::move_in(Space &space, double dt)
                       columns_in(space),
                       set,
                       space.column(state, PRESSURE),
+                      space.column(state, OLDER),
                       {space.column(state, ACCELERATION), space.column(state, ACCELERATION + 1),
                        space.column(state, ACCELERATION + 2)},
                       space.column(state, SMOOTHING),
+                      level,
                       dt});
 }
 
@@ -137,9 +139,17 @@ void FixLiquidFlow::project_in(Space &space, const Rows &near, Room &room, doubl
   const auto matrix = room.matrix(atom->nlocal, near.widest());
   using M = std::remove_const_t<decltype(matrix)>;
   const double *const before = space.column(state, PRESSURE);
-  space.for_all(atom->nlocal, CopyPressure{before, space.column(work, SOLUTION)});
+  double *const pressure = space.column(work, SOLUTION);
+  space.for_all(atom->nlocal, Extrapolate{before, space.column(state, OLDER), pressure,
+                                          now.done_dt > 0.0 ? dt / now.done_dt : 0.0});
   space.for_all(nrows, Assemble<B, List, M>{loop, matrix, before, space.column(vectors, 0), dt});
   solved = solve_in(space, matrix);
+  level = 0.0;
+  if (without_level) {
+    const auto sum =
+        foam_sum(space.template totals<Products>(atom->nlocal, SumAndCount{pressure}), world);
+    if (sum.b > 0.0) level = sum.a / sum.b;
+  }
   send(work, SOLUTION, 1);
   space.for_all(nrows, Project<B, List>{loop});
 }

@@ -67,6 +67,8 @@ struct BubbleSetting {
   double We = 1.0, Fr = 0.0, beta = 1.0;    // Fr 0: no gravity
   bool turbulence = false, breaks = false, surface = true;
   bool drag = true, lift = true, virtual_mass = true, substeps = true;
+  enum Viscosity { NONE, SATO, PUBLISHED } viscosity = SATO;
+  double lasts = -1.0;    // of a film at the surface; < 0: by We, Fr and Re
 };
 
 template <class Row, class B, class Visit>
@@ -235,7 +237,18 @@ template <class B> struct BubbleForces {
       const double v = at(VIRTUAL + k, i) = on.added * (dudt - acceleration);
       at(REACTION + k, i) = -(d + l + v) / gas.beta;
     }
-    at(VISCOSITY_B, i) = bubble_viscosity(b.radius(i), on.speed);
+    at(VISCOSITY_B, i) = viscosity(b.radius(i), on.speed);
+  }
+  FOAM_FUNCTION double viscosity(double a, double speed) const
+  {
+    switch (gas.viscosity) {
+      case BubbleSetting::SATO:
+        return bubble_viscosity_sato(a, speed, set.Re);
+      case BubbleSetting::PUBLISHED:
+        return bubble_viscosity(a, speed);
+      default:
+        return 0.0;
+    }
   }
 };
 
@@ -325,13 +338,17 @@ template <class B> struct AgeBubbles {
       }
     } else {
       at.state(LEFT, i) -= dt;
-      const double T = gas.Fr > 0.0 ? persistence(gas.We, gas.Fr, set.Re, a) : 0.0;
-      if (at.state(LEFT, i) < -T) burst = true;
+      if (at.state(LEFT, i) < -lasts(a)) burst = true;
     }
     if (burst) {
       at.state(GONE, i) = 1.0;
       all.gone += 1.0;
     }
+  }
+  FOAM_FUNCTION double lasts(double a) const
+  {
+    if (gas.lasts >= 0.0) return gas.lasts;
+    return gas.Fr > 0.0 ? persistence(gas.We, gas.Fr, set.Re, a) : 0.0;
   }
 };
 

@@ -398,13 +398,6 @@ template <class B, class List, class Matrix> struct Assemble : Loop<B, List> {
   }
 };
 
-struct CopyPressure {
-  static constexpr const char *NAME = "liquid: copy pressure";
-  const double *from;
-  double *to;
-  FOAM_FUNCTION void operator()(int i) const { to[i] = from[i]; }
-};
-
 // Gradient of the pressure, and the end of the step: x = x_n + dt (u_n + u_{n+1}) / 2 + dt u_ps, from x* = x_n + dt u_n
 
 struct SpeedTotals {
@@ -466,8 +459,8 @@ template <class B> struct Move {
   Walls walls;
   Columns c;
   Setting set;
-  double *pressure, *acceleration[3], *smoothing;    // p, du/dt, h: they travel
-  double dt;
+  double *pressure, *older, *acceleration[3], *smoothing;    // p, du/dt, h: they travel
+  double level, dt;                                          // of p, which is kept without it
   FOAM_FUNCTION void operator()(int i, SpeedTotals &all) const
   {
     double square = 0.0;
@@ -482,7 +475,8 @@ template <class B> struct Move {
       b.v(i, k) = u;
       square += u * u;
     }
-    pressure[i] = c(SOLUTION, i);
+    older[i] = pressure[i];
+    pressure[i] = c(SOLUTION, i) - level;
     smoothing[i] = c(H, i);
     all.add(square, set.volume_of_liquid());
   }

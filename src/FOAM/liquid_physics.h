@@ -8,6 +8,7 @@
    Source:
      [K23]  J. R. C. King, S. J. Lind, B. D. Rogers, P. K. Stansby, R. Vacondio, J. Fluid Mech. 972, A24 (2023)
      [B99]  J. Bonet, T.-S. L. Lok, Comput. Methods Appl. Mech. Eng. 180, 97 (1999)
+     [S81]  Y. Sato, M. Sadatomi, K. Sekoguchi, Int. J. Multiphase Flow 7, 167 (1981)
      [M97]  J. P. Morris, P. J. Fox, Y. Zhu, J. Comput. Phys. 136, 214 (1997)
      [W95]  H. Wendland, Adv. Comput. Math. 4, 389 (1995)
 ------------------------------------------------------------------------- */
@@ -225,11 +226,17 @@ FOAM_FUNCTION double drag_factor(double a, double speed, double Re, double beta)
 
 inline constexpr double LIFT = 0.5, VIRTUAL_MASS = 0.5;    // C_l, C_vm
 
-// Viscosity by a bubble [K23 (2.5)], before it is spread over the liquid
+// Viscosity by a bubble over that of the liquid, before it is spread over the liquid.  Sato's [S81] is 0.6 alpha_g 2a |u_rel|; a
+// bubble's part of alpha_g is V_b, so that it is Re V_b 0.6 2a |u_rel|.  [K23 (2.5)] prints it without Re V_b, which depends on the unit of
+// length.
 
-FOAM_FUNCTION double bubble_viscosity(double a, double speed)
+FOAM_FUNCTION double bubble_viscosity(double a, double speed)    // as printed
 {
   return 0.6 * 2.0 * a * speed;
+}
+FOAM_FUNCTION double bubble_viscosity_sato(double a, double speed, double Re)
+{
+  return Re * bubble_volume(a) * bubble_viscosity(a, speed);
 }
 
 // Velocity of the liquid at a bubble that is not resolved [K23 (2.19)], a process of Langevin along the resolved relative

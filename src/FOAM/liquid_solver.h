@@ -65,6 +65,35 @@ struct Products {    // sums over all particles
   }
 };
 
+struct Copy {
+  static constexpr const char *NAME = "liquid: copy";
+  const double *from;
+  double *to;
+  FOAM_FUNCTION void operator()(int i) const { to[i] = from[i]; }
+};
+
+// Where the search begins: a solution that goes on as between the last two
+
+struct Extrapolate {
+  static constexpr const char *NAME = "liquid: extrapolate";
+  const double *last, *older;
+  double *to;
+  double ratio;    // of the times between them
+  FOAM_FUNCTION void operator()(int i) const { to[i] = last[i] + ratio * (last[i] - older[i]); }
+};
+
+// The mean of a solution
+
+struct SumAndCount {
+  static constexpr const char *NAME = "liquid: mean";
+  const double *x;
+  FOAM_FUNCTION void operator()(int i, Products &all) const
+  {
+    all.a += x[i];
+    all.b += 1.0;
+  }
+};
+
 template <class M> struct StartResidual {
   static constexpr const char *NAME = "liquid: residual";
   M A;

@@ -79,6 +79,9 @@ void PairBubbleCollision::settings(int narg, char **arg)
   keywords.emplace_back("tangential", [&](const Value &v) {
     model.slides = v.one_of({"none", "all"}) == 1;
   });
+  largest_to_come = 0.0;
+  keywords.emplace_back("rmax",
+                        [&](const Value &v) { largest_to_come = v.number(FoamInput::ABOVE, 0.0); });
   input.keywords(keywords);
   if (!(model.hmin > 0.0))
     error->all(FLERR,
@@ -142,6 +145,7 @@ void PairBubbleCollision::init_style()
   largest.resize(mine.size());
   MPI_Allreduce(mine.data(), largest.data(), static_cast<int>(mine.size()), MPI_DOUBLE, MPI_MAX,
                 world);
+  for (double &radius : largest) radius = std::max(radius, largest_to_come);
 }
 
 // lists reach as far as the forces do: LAMMPS' lists by radius would end at contact
@@ -165,7 +169,7 @@ void PairBubbleCollision::check_radii()
     if (atom->radius[i] > largest[atom->type[i]] || !(atom->radius[i] > 0.0))
       error->one(FLERR,
                  "Pair style bubble/collision: bubble {} of type {} has radius {}: it must be > 0, "
-                 "and no larger than the largest of its type at the start of the run, {}",
+                 "and no larger than the largest of its type at the start of the run, or rmax: {}",
                  atom->tag[i], atom->type[i], atom->radius[i], largest[atom->type[i]]);
 }
 
@@ -269,6 +273,7 @@ void PairBubbleCollision::write_restart_settings(FILE *fp)
   const int with = exact;
   fwrite(&settings, sizeof(settings), 1, fp);
   fwrite(&with, sizeof(with), 1, fp);
+  fwrite(&largest_to_come, sizeof(largest_to_come), 1, fp);
 }
 
 void PairBubbleCollision::read_restart_settings(FILE *fp)
@@ -277,9 +282,11 @@ void PairBubbleCollision::read_restart_settings(FILE *fp)
   if (comm->me == 0) {
     utils::sfread(FLERR, &model, sizeof(model), 1, fp, nullptr, error);
     utils::sfread(FLERR, &with, sizeof(with), 1, fp, nullptr, error);
+    utils::sfread(FLERR, &largest_to_come, sizeof(largest_to_come), 1, fp, nullptr, error);
   }
   MPI_Bcast(&model, sizeof(model), MPI_BYTE, 0, world);
   MPI_Bcast(&with, 1, MPI_INT, 0, world);
+  MPI_Bcast(&largest_to_come, 1, MPI_DOUBLE, 0, world);
   exact = with;
 }
 

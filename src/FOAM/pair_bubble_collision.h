@@ -69,7 +69,8 @@ class PairBubbleCollision : public Pair {
   std::vector<double> table;    // ln of the integral
   Bubble::CollisionTotals totals;
   FixBubbleFilms *films = nullptr;
-  std::vector<double> largest;    // radius of each type
+  std::vector<double> largest;     // radius of each type
+  double largest_to_come = 0.0;    // that cutoffs allow for
 
   void allocate();
   void check_radii();

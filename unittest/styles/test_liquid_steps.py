@@ -73,11 +73,14 @@ thermo 1
 
 
 def calm(dt=1.0, most=1000):
-    """A scene at which the solver has more to do in a later step than in all before."""
+    """A scene that is pushed the harder the longer, so that the solver has more to do in a later step than before."""
     text = tank(create=MANY, gas="surface yes langevin 7 breakup 5", dt=dt,
                 velocity="variable ux atom 0.05*sin(7*z)\nvelocity water set v_ux 0 0")
     text = text.replace("dtmax", f"pressure v_p solver 1.0e-6 {most} dtmax")
-    return text.replace("pair_style", "variable p atom 0.95-z\npair_style", 1)
+    return text.replace("pair_style", "variable p atom 0.95-z\npair_style", 1) + """
+variable fx atom 0.01*v_dr^3*step^2*sin(0.1*id)
+fix push water addforce v_fx 0 0
+"""
 
 
 def test_a_repeated_step_is_a_shorter_one(bitwise_lmp):
@@ -89,9 +92,9 @@ def test_a_repeated_step_is_a_shorter_one(bitwise_lmp):
 dump d all custom 1 dump.* id x y z vx vy vz
 dump_modify d sort id format float %.17g
 """ + COUNT
-    free = bitwise_lmp(calm() + look + "run 30\n").thermo[0]
+    free = bitwise_lmp(calm() + look + "run 14\n").thermo[0]
     needed = free["f_l[3]"]
-    n = next(n for n in range(3, 31) if needed[n] > needed[:n].max())
+    n = next(n for n in range(2, 15) if needed[n] > needed[:n].max())
     cut = bitwise_lmp(calm(most=int(needed[n]) - 1) + look + f"restart {n - 1} state.*\nrun {n}\n")
     table = cut.thermo[0]
     repeated, taken = table["f_l[9]"][n], table["Time"][n] - table["Time"][n - 1]
@@ -133,7 +136,7 @@ run 20
 def test_fast_bubbles_shorten_steps(lmp):
     """None goes further than h/2 in a step."""
     h = 1.3 / 10
-    table = lmp(tank(create=one(0.41, 0.37, 0.5), velocity="velocity gas set 0 0 20", gas="surface no drag no", dt=1.0)
+    table = lmp(tank(create=one(0.41, 0.37, 0.5), velocity="velocity gas set 0 0 2 units box", gas="surface no drag no", dt=1.0)
                 + COUNT + "compute speed gas reduce max vz\nthermo_style custom step f_l[2] c_speed\nrun 3\n").thermo[0]
     assert (table["f_l[2]"][1:] <= 0.5 * h / table["c_speed"][1:] * (1 + 1e-12)).all()
 
@@ -154,6 +157,59 @@ run 30
     Re_b = 2 * a * relative * Re
     drag = 0.5 * 24 / Re_b * (1 + 0.15 * Re_b**0.687) * np.pi * a**2 * relative**2
     assert drag == pytest.approx(2 * volume * (1 - 1 / beta), rel=0.01)
+
+
+@pytest.mark.parametrize("viscosity, factor", [("none", 0.0), ("published", 1.0), ("sato", None)])
+def test_viscosity_by_bubbles(lmp, viscosity, factor):
+    """What a bubble adds to the viscosity of the liquid, and that the sum over particles gives it back: that of Sato
+    has the volume of the bubble, and Re."""
+    a, Re, speed = 0.01, 1000, 0.3
+    frame = lmp(tank(create=one(0.41, 0.37, 0.3), velocity=f"velocity gas set 0 0 {speed} units box",
+                     gas=f"surface no viscosity {viscosity}", more="""
+compute c water liquid/particle alpha nub
+compute d gas bubble/flow nub
+dump d all custom 1 dump id type c_c[*] c_d
+dump_modify d sort id format float %.17g
+run 0
+""")).dump("dump")[0]
+    expected = 0.6 * 2 * a * speed * (Re * 4 / 3 * np.pi * a**3 if factor is None else factor)
+    assert frame["c_d"][frame["type"] == 2] == pytest.approx(expected, rel=1e-14)
+    wet = frame["type"] == 1
+    spread = 0.1**3 / frame["c_c[1]"][wet] * frame["c_c[2]"][wet]
+    assert spread.sum() == pytest.approx(expected, rel=1e-13)
+
+
+def test_bubbles_last_as_given(lmp):
+    """At the surface, where all else is the same: longer by the difference."""
+    ends = []
+    for T in 0.1, 0.6:
+        table = lmp(tank(create=one(0.41, 0.37, 0.85), gas=f"surface yes persist {T}",
+                         more="thermo_style custom step time f_b[1]\nthermo 1\nrun 700\n")).thermo[0]
+        ends.append(table["Time"][table["f_b[1]"] == 0][0])
+    assert ends[1] - ends[0] == pytest.approx(0.5, abs=0.021)    # a step
+
+
+def test_bubbles_of_a_sparger_collide(lmp):
+    """A pair style between bubbles acts on those that are born, if its cutoffs know how large they may be: two come no
+    closer than they do elsewhere."""
+    text = tank(gas="surface no", dt=1e-4, more="""
+fix s gas bubble/sparger 0.4 0.4 0.3 0.0 1e-2 radius 0.01 seed 3
+compute e gas pair bubble/collision epair
+thermo_style custom step f_b[1] c_e
+thermo_modify norm no
+thermo 20
+run 40
+""")
+    old = "pair_style    liquid/sph ${dr}\npair_coeff    * *"
+    for rmax, works in ("", False), ("rmax 0.01", True):
+        both = ("pair_style hybrid/overlay liquid/sph ${dr} bubble/collision 1e-4 1e-3 h0 1e-4 hmin 1e-4 " + rmax +
+                "\npair_coeff * * liquid/sph\npair_coeff 2 2 bubble/collision")
+        assert old in text
+        result = lmp(text.replace(old, both), check=works)
+        if works:
+            assert result.thermo[0]["f_b[1]"][-1] >= 9 and result.thermo[0]["c_e"][-1] > 0
+        else:
+            assert any(re.search("bubble .* has radius 0.01: .* or rmax: 0", line) for line in result.errors)
 
 
 @pytest.mark.parametrize("change, error", [
