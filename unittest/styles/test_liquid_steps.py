@@ -136,8 +136,14 @@ run 20
 def test_fast_bubbles_shorten_steps(lmp):
     """None goes further than h/2 in a step."""
     h = 1.3 / 10
-    table = lmp(tank(create=one(0.41, 0.37, 0.5), velocity="velocity gas set 0 0 2 units box", gas="surface no drag no", dt=1.0)
-                + COUNT + "compute speed gas reduce max vz\nthermo_style custom step f_l[2] c_speed\nrun 3\n").thermo[0]
+    table = lmp(tank(create=one(0.41, 0.37, 0.5), velocity="velocity gas set 0 0 2 units box", dt=1.0,
+                     gas="surface no drag no", more="""
+compute speed gas reduce max vz
+thermo_style custom step f_l[2] c_speed
+thermo_modify norm no format float %.17g
+thermo 1
+run 3
+""")).thermo[0]
     assert (table["f_l[2]"][1:] <= 0.5 * h / table["c_speed"][1:] * (1 + 1e-12)).all()
 
 
