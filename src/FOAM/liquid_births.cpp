@@ -57,7 +57,7 @@ void LiquidBirths::create(const std::vector<Newborn> &of_this_rank)
   atom->nghost = 0;
   if (atom->map_style != Atom::MAP_NONE) atom->map_clear();
   const int before = atom->nlocal;
-  const bigint others = atom->natoms;
+  const bigint others = present(), gone = atom->natoms - others;
   lammps_create_atoms(lmp, static_cast<int>(ids.size()), ids.data(), types.data(), x.data(),
                       v.data(), nullptr, 0);
   for (int i = before; i < atom->nlocal; i++) {
@@ -67,14 +67,26 @@ void LiquidBirths::create(const std::vector<Newborn> &of_this_rank)
     atom->mask[i] |= groupbit;
   }
   const bigint lost = others + static_cast<bigint>(ids.size()) - atom->natoms;
+  atom->natoms += gone;
   if (lost)
     error->all(FLERR,
                "{} of {} bubbles that were born lie outside of the box: the first at {} {} {}",
                lost, ids.size(), x[0], x[1], x[2]);
 }
 
+// Atoms that have left the box are not here.  LAMMPS finds out by its own number of all, so that only those that are
+// born and taken out may change it.
+
+bigint LiquidBirths::present() const
+{
+  bigint mine = atom->nlocal, all;
+  MPI_Allreduce(&mine, &all, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+  return all;
+}
+
 void LiquidBirths::remove(const std::vector<bool> &gone)
 {
+  const bigint before = present();
   if (atom->map_style != Atom::MAP_NONE) atom->map_clear();
   for (int i = atom->nlocal - 1; i >= 0; i--) {
     if (!gone[i]) continue;
@@ -82,6 +94,5 @@ void LiquidBirths::remove(const std::vector<bool> &gone)
     atom->nlocal--;
   }
   atom->nghost = 0;
-  bigint nlocal = atom->nlocal;
-  MPI_Allreduce(&nlocal, &atom->natoms, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+  atom->natoms -= before - present();
 }

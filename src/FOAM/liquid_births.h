@@ -37,6 +37,7 @@ class LiquidBirths : protected Pointers {
  private:
   int groupbit;
   double density;
+  bigint present() const;    // atoms of all ranks
 };
 
 }    // namespace LAMMPS_NS

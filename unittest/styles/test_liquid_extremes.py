@@ -122,6 +122,20 @@ fix s gas bubble/sparger 0.05 0.05 0.02 0.05 2e-3 radius 0.01 seed 4
     assert finite(last) and (np.bincount(last["type"].astype(int))[1:] == [640, table["f_b[1]"][-1]]).all()
 
 
+@pytest.mark.parametrize("ranks", [1, 2])
+@pytest.mark.parametrize("gas, more", [
+    ("surface no", "fix s gas bubble/sparger 0.4 0.4 0.2 0.1 1e-2 radius 0.01 seed 4\n"),
+    ("surface yes", "create_atoms 2 random 20 5 skin\n")])
+def test_gas_that_leaves_is_missed(base_lmp, gas, more, ranks):
+    """A bubble that flies out of an open face is lost, as LAMMPS says, while others are born or burst."""
+    skin = "region skin block 0 0.8 0 0.8 0.98 1.02 units box\n"
+    text = tank(create=skin + one(0.4, 0.4, 1.35) + "\n" + more * (gas == "surface yes"), gas=gas,
+                velocity="velocity gas set 0 0 5 units box",
+                more=more * (gas == "surface no") + look(40).replace("thermo 1", "thermo 40"))
+    result = base_lmp(text, ranks=ranks, check=False)
+    assert any(re.search("Lost atoms: original .* current", line) for line in result.errors), result.errors
+
+
 @pytest.mark.parametrize("place", ["0 0 0 0.05", "0.8 0.8 1.4 0.05"])
 def test_sparger_beyond_a_corner(lmp, place):
     result = lmp(closed(more=f"fix s gas bubble/sparger {place} 1e-3 radius 0.01\nrun 2\n"), check=False)
