@@ -82,10 +82,13 @@ def main() -> None:
                         help='how to start LAMMPS, as one string (default "%(default)s")')
     parser.add_argument("--series", nargs="+", default=["spring", "sticky0.05"],
                         help="of run.py (default: %(default)s)")
+    parser.add_argument("--fractions", nargs="+", type=float, metavar="X", help="liquid fractions (default: all)")
     args = parser.parse_args()
     for done in sorted(args.directory.glob("*/complete")):
         match = NAME.match(done.parent.name)
         if not match or match["series"] not in args.series or match["seed"] != "1":
+            continue
+        if args.fractions and float(match["fraction"]) not in args.fractions:
             continue
         radii = radii_of(done.parent)
         for seed in SEEDS if radii is not None else ():

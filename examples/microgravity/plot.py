@@ -3,6 +3,10 @@
 
     python3 plot.py DIR                                  into DIR
     python3 plot.py DIR --full --no-pdf --out FOLDER     tables list all runs of run.py --full
+    python3 plot.py DIR --full --small DIR2              with smaller runs where DIR has none
+
+A series that DIR has not is taken from DIR2, and its number of bubbles stands beside its name. changes.csv keeps what
+stands there of runs that are not here.
 
 microgravity.csv has all numbers. states.py says how they are measured, crossover.py how crossovers are read off,
 tables.py makes the tables of the manual. What is not run yet is said to be so.
@@ -35,15 +39,20 @@ SHOWN = (0.20, 0.30, 0.36, 0.45)      # liquid fractions of size distributions a
 UNCERTAIN = 0.15                      # exponents with a larger error are not drawn
 
 
-def draw(directory: Path, out: Path | None = None, full: bool = False, pdf: bool = True) -> None:
+def draw(directory: Path, out: Path | None = None, full: bool = False, pdf: bool = True,
+         small: Path | None = None) -> None:
     out = out or directory
     out.mkdir(parents=True, exist_ok=True)
     foams = foams_in(directory)
+    smaller = foams_in(small) if small else {}
+    changed = tables.keep_others(tables.changes(smaller) + tables.changes(foams), out / "changes.csv")
+    foams = tables.with_smaller(foams, smaller)
     for key, packed in packings(directory).items():
         if key in foams:
             foams[key].row |= {name: packed[name] for name in ("rcp", "rcp_error")}
     fractions = sorted({fraction for _, fraction in foams} | (set(FRACTIONS) if full else set()))
-    write_tables(foams, fractions, full, out)
+    write_tables(foams, fractions, out)
+    tables.write(changed or [{"series": tables.MISSING}], out / "changes.csv")
     if not foams:
         print(f"{directory} has no complete run of run.py: tables alone")
         return
@@ -51,10 +60,10 @@ def draw(directory: Path, out: Path | None = None, full: bool = False, pdf: bool
     draw_against_fraction(foams, tables.EXCHANGE, out / "microgravity-exchange", pdf)
     draw_sizes(foams, out / "microgravity-sizes", pdf)
     draw_approach(foams, out / "microgravity-approach", pdf)
-    draw_slices(foams, directory, out / "microgravity-slices", pdf)
+    draw_slices(foams, out / "microgravity-slices", pdf)
 
 
-def write_tables(foams: tables.Foams, fractions: list[float], full: bool, out: Path) -> None:
+def write_tables(foams: tables.Foams, fractions: list[float], out: Path) -> None:
     fractions = fractions or FRACTIONS
     for name, what in (("1/n", "exponents"), ("beta", "slopes"), ("1/n_R32", "exponents-sauter"),
                        ("z_wide", "contacts"), ("rattlers", "rattlers"), ("through_films", "films")):
@@ -66,7 +75,6 @@ def write_tables(foams: tables.Foams, fractions: list[float], full: bool, out: P
     tables.write(tables.crossovers(foams, list(SERIES)), out / "crossovers.csv")
     tables.write(tables.shifts(foams), out / "shifts.csv")
     tables.write(tables.checks(foams), out / "checks.csv")
-    tables.write(tables.changes(foams), out / "changes.csv")
     tables.write(tables.summary(foams), out / "summary.csv")
     (out / "findings.txt").write_text(tables.findings(foams))
     tables.write(tables.run_table(foams, list(SERIES), fractions), out / "runs.csv")
@@ -92,11 +100,12 @@ def draw_against_fraction(foams: tables.Foams, series: list[str], base: Path, pd
         for ax, (what, _) in zip(axes, PANELS):
             x, y, error = tables.column(foams, name, what)
             good = error < UNCERTAIN if what.startswith("1/n") else np.ones(len(x), dtype=bool)
-            ax.errorbar(x[good], y[good], error[good], lw=0.8, label=name, fmt=MARKS[number] + "-", color=f"C{number}",
-                        mfc="w" if number % 2 else None)
+            ax.errorbar(x[good], y[good], error[good], lw=0.8, label=tables.label(foams, name),
+                        fmt=MARKS[number] + "-", color=f"C{number}", mfc="w" if number % 2 else None)
     for ax, (_, label) in zip(axes, PANELS):
         ax.set(xlabel="liquid fraction", ylabel=label, xlim=limits)
     for ax in axes[:2]:
+        ax.set(ylim=(min(0.2, ax.get_ylim()[0]), max(0.55, ax.get_ylim()[1])))
         for value in (1 / 3, 1 / 2):
             ax.axhline(value, color="0.7", lw=0.8, zorder=0)
     for theory, style in (("lsw", "--"), ("lemlich", ":")):
@@ -171,7 +180,8 @@ def draw_approach(foams: tables.Foams, base: Path, pdf: bool) -> None:
                         color=f"C{number}", lw=0.8, label=f"{foam.fraction:.2f}")
     for ax, (_, _, label) in zip(axes, what):
         ax.set(xscale="log", xlabel="bubbles left / bubbles at the start", ylabel=label)
-        figure.plain_ticks(ax, "x")
+        ax.set_xticks([0.5, 0.2, 0.1, 0.05], ["0.5", "0.2", "0.1", "0.05"])
+        ax.xaxis.set_minor_formatter("")
         ax.axvspan(1 / LATE, ax.get_xlim()[1], color="0.93", zorder=0)
         ax.invert_xaxis()
     fig.legend(*axes[0].get_legend_handles_labels(), title="liquid fraction", loc="outside right center")
@@ -180,9 +190,9 @@ def draw_approach(foams: tables.Foams, base: Path, pdf: bool) -> None:
 
 # ------------------------------------------------------------------ pictures of the foam
 
-def draw_slices(foams: tables.Foams, directory: Path, base: Path, pdf: bool) -> None:
-    """A plane through the last states; rattlers are orange."""
-    rows = [[(foam, last_frame(directory, foam)) for foam in nearest(foams, series, scaling=False)]
+def draw_slices(foams: tables.Foams, base: Path, pdf: bool) -> None:
+    """A plane through the first late states; rattlers are orange."""
+    rows = [[(foam, late_frame(foam)) for foam in nearest(foams, series, scaling=False)]
             for series in ("spring", "sticky0.05")]
     rows = [row for row in rows if row]
     if not rows:
@@ -199,10 +209,9 @@ def draw_slices(foams: tables.Foams, directory: Path, base: Path, pdf: bool) -> 
     save(fig, base, pdf)
 
 
-def last_frame(directory: Path, foam: Foam) -> Frame:
-    """The late state with the most bubbles, or the last one."""
-    path = min(directory.glob(f"{foam.series}-{foam.fraction:.2f}-*/left.lammpstrj"))
-    frames = list(read_frames(path))
+def late_frame(foam: Foam) -> Frame:
+    """The late state of the first run with the most bubbles, or the last one."""
+    frames = list(read_frames(foam.paths[0] / "left.lammpstrj"))
     late = [frame for frame in frames if is_late(len(frame), foam.row["bubbles"])]
     return late[0] if late else frames[-1]
 
@@ -230,12 +239,14 @@ def main() -> None:
     parser.add_argument("directory", type=Path, metavar="DIR", help="the --out of run.py")
     parser.add_argument("--out", type=Path, metavar="FOLDER", help="of figures and tables (default: DIR)")
     parser.add_argument("--full", action="store_true", help="list all runs of run.py --full")
+    parser.add_argument("--small", type=Path, metavar="DIR2", help="of smaller runs, for series that DIR has not")
     parser.add_argument("--no-pdf", action="store_true", help="PNG alone")
     args = parser.parse_args()
-    if not args.directory.is_dir():
-        parser.error(f"{args.directory} is no directory; it should be the --out of run.py")
+    for directory in (args.directory, *([args.small] if args.small else [])):
+        if not directory.is_dir():
+            parser.error(f"{directory} is no directory; it should be the --out of run.py")
     try:
-        draw(args.directory, args.out, args.full, not args.no_pdf)
+        draw(args.directory, args.out, args.full, not args.no_pdf, args.small)
     except Unusable as wrong:
         sys.exit(str(wrong))
 

@@ -30,6 +30,7 @@ CHECKS = {                 # the same, with one more thing changed: does it matt
     "slow": (*SERIES["spring"], "K", 1.0e-4),
     "sticky0.05-slow": (*SERIES["sticky0.05"], "K", 1.0e-4),
     "fine": (*SERIES["spring"], "tol", 1.0e-4),
+    "narrow": (*SERIES["spring"], "std", 0.2),
 }
 ALL = {**SERIES, **CHECKS}
 FRACTIONS = [0.15, 0.20, 0.25, 0.30, 0.33, 0.36, 0.40, 0.45, 0.50]
@@ -104,7 +105,7 @@ def main():
     parser.add_argument("--out", default="out", type=Path, metavar="DIR", help="where everything is written")
     parser.add_argument("--full", action="store_true", help="30 000 bubbles in the place of 2000")
     parser.add_argument("--series", nargs="+", choices=ALL,
-                        help="laws (default: spring, sticky0.05; with --full all but slow and fine)")
+                        help="laws (default: spring, sticky0.05; with --full all but checks)")
     parser.add_argument("--fractions", nargs="+", type=float, metavar="X",
                         help="liquid fractions (default: 0.20 0.30 0.36 0.45; with --full 0.15 to 0.50)")
     parser.add_argument("--seeds", nargs="+", type=int, default=[1])

@@ -11,7 +11,7 @@ The late states are those with at most a quarter of the bubbles (LATE). Errors a
 """
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 import re
 
@@ -57,6 +57,7 @@ class Foam:
     states: list[list[State]]      # of each run, the earliest first
     row: dict[str, float]
     density: sizes.Average | None = None
+    paths: list[Path] = field(default_factory=list)
 
     @property
     def scales(self) -> bool:
@@ -173,13 +174,13 @@ def foam_of(name: str, fraction: float, paths: list[Path]) -> Foam:
                              "minutes": sum(map(minutes, paths))}
     late = [[state for state in run if is_late(state.N, first)] for run in states]
     if not all(len(run) > 1 for run in late):
-        return Foam(name, fraction, states, row)
+        return Foam(name, fraction, states, row, paths=paths)
     start = max(runs.tau_of_N(one, one["N"][0] / LATE) for one in series)
     row |= {"tau_from": start, "tau_to": row["last_tau"]}
     try:
         row |= exponents(series, start, row["last_tau"])
     except Unusable:     # too few lines of the table in the range
-        return Foam(name, fraction, states, row)
+        return Foam(name, fraction, states, row, paths=paths)
     for names, kind in ((MEANS, "means"), (SIZES, "sizes")):
         found = over_states(late, kind)
         for column, value, error in zip(names, found.mean, found.error):
@@ -187,7 +188,7 @@ def foam_of(name: str, fraction: float, paths: list[Path]) -> Foam:
     row["liquid"] = float(np.mean([state.liquid for run in late for state in run]))
     row["imbalance"] = float(np.max([state.imbalance for run in late for state in run]))
     row["across"] = float(np.max([run[-1].across for run in late]))
-    return Foam(name, fraction, states, row, over_states(late, "density"))
+    return Foam(name, fraction, states, row, over_states(late, "density"), paths)
 
 
 def minutes(path: Path) -> float:

@@ -4,6 +4,9 @@ Each conclusion is made from the numbers of the runs. What is not run yet is sai
 """
 from __future__ import annotations
 
+import csv
+from pathlib import Path
+
 import numpy as np
 
 from crossover import MIDDLE, QUARTERS, Crossing, crossing, peaks
@@ -34,16 +37,32 @@ def cell(foams: Foams, key: tuple[str, float], name: str) -> str:
         return MISSING
     foam = foams[key]
     if not foam.scales:
-        return f"stops at {foam.row['last_N']:.0f}"
+        return f"stops at {foam.row['last_N']:.0f} of {foam.row['bubbles']:.0f}"
     if name not in foam.row:
         return MISSING
-    return short(foam.row[name], foam.row[f"{name}_error"])
+    return short(foam.row[name], foam.row[f"{name}_error"]) if np.isfinite(foam.row[name]) else "not known"
+
+
+def with_smaller(foams: Foams, smaller: Foams) -> Foams:
+    """Foams, and those of smaller runs of series that have no others."""
+    have = {series for series, _ in foams}
+    return dict(sorted({**{key: foam for key, foam in smaller.items() if key[0] not in have}, **foams}.items()))
+
+
+def most_bubbles(foams: Foams) -> float:
+    return max((foam.row["bubbles"] for foam in foams.values()), default=0.0)
+
+
+def label(foams: Foams, series: str) -> str:
+    """Its name, with the number of bubbles if other series have more."""
+    mine = most_bubbles({key: foam for key, foam in foams.items() if key[0] == series})
+    return f"{series} ({mine:.0f})" if 0 < mine < most_bubbles(foams) else series
 
 
 def matrix(foams: Foams, series: list[str], fractions: list[float], name: str) -> Rows:
     """A quantity: liquid fractions below each other, series beside each other."""
-    return [{"liquid fraction": f"{fraction:.2f}", **{one: cell(foams, (one, fraction), name) for one in series}}
-            for fraction in fractions]
+    return [{"liquid fraction": f"{fraction:.2f}",
+             **{label(foams, one): cell(foams, (one, fraction), name) for one in series}} for fraction in fractions]
 
 
 def column(foams: Foams, series: str, name: str) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -90,7 +109,7 @@ def shown(found: Crossing, foams: Foams, series: str) -> str:
 def crossovers(foams: Foams, series: list[str]) -> Rows:
     rows = []
     for one in series:
-        row = {"series": one}
+        row = {"series": label(foams, one)}
         for what in READINGS:
             row[what] = shown(read_off(foams, one, what), foams, one)
             if READINGS[what][1] == MIDDLE:
@@ -103,7 +122,7 @@ def shifts(foams: Foams) -> Rows:
     """How far adhesion moves each crossover from that of the spring."""
     rows = []
     for one in ADHESION[1:]:
-        row = {"series": one}
+        row = {"series": label(foams, one)}
         for what in READINGS:
             a, b = read_off(foams, "spring", what), read_off(foams, one, what)
             row[what] = shift(a, b, column(foams, one, READINGS[what][0]), READINGS[what][1], what == "rattlers")
@@ -161,6 +180,8 @@ def drift(foam: Foam, index: int, kind: str) -> tuple[float, float]:
 
 
 def checks(foams: Foams) -> Rows:
+    """Of the runs with the most bubbles."""
+    foams = {key: foam for key, foam in foams.items() if foam.row["bubbles"] == most_bubbles(foams)}
     scaling = {key: foam for key, foam in foams.items() if foam.scales}
     if not scaling:
         return [{"check": "all", "result": MISSING}]
@@ -201,12 +222,13 @@ def range_of(values: list[float], digits: str = ".3f") -> str:
 
 
 CHANGES = {"slow": ("spring", "a tenth of K"), "sticky0.05-slow": ("sticky0.05", "a tenth of K"),
-           "fine": ("spring", "a tenth of the tolerance")}
+           "fine": ("spring", "a tenth of the tolerance"), "narrow": ("spring", "sd 0.2 at the start")}
 
 
 def changes(foams: Foams) -> Rows:
     """What one more thing that is changed does to late states, at the same liquid fraction and number of bubbles."""
-    names = {"z_wide": "neighbors", "rattlers": "rattlers", "through_films": "through films", "width": "sd of sizes"}
+    names = {"1/n_R32": "1/n of R32", "z_wide": "neighbors", "rattlers": "rattlers", "through_films": "through films",
+             "width": "sd of sizes"}
     rows = []
     for (other, fraction), foam in foams.items():
         base, what = CHANGES.get(other, ("", ""))
@@ -220,7 +242,20 @@ def changes(foams: Foams) -> Rows:
             error = float(np.hypot(foam.row[f"{name}_error"], before.row[f"{name}_error"]))
             row[head] = f"{'+' if by > 0 else ''}{short(by, error)}" + (" *" if abs(by) > SIGMAS * error > 0 else "")
         rows.append(row)
-    return rows or [{"series": MISSING}]
+    return rows
+
+
+def keep_others(rows: Rows, path: Path) -> Rows:
+    """Rows of changes(), and those of runs that are not here from the table that is there."""
+    keys = ("series", "change", "bubbles", "liquid fraction")
+    here = {tuple(row[key] for key in keys) for row in rows}
+    if path.exists():
+        with path.open(newline="") as file:
+            rows = rows + [row for row in csv.DictReader(file)
+                           if row.get("change") and tuple(row[key] for key in keys) not in here]
+    heads = dict.fromkeys(head for row in rows for head in row)
+    return [{head: row.get(head, "") for head in heads}
+            for row in sorted(rows, key=lambda row: tuple(row[key] for key in keys))]
 
 
 # ------------------------------------------------------------------ conclusions
@@ -245,6 +280,12 @@ def ends_of(foams: Foams, series: str, name: str) -> str:
     """The driest and the wettest foam."""
     x, y, e = column(foams, series, name)
     return " to ".join(f"{short(y[k], e[k])} at {x[k]:.2f}" for k in sorted({0, len(x) - 1})) if len(x) else MISSING
+
+
+def below_half(theory: str) -> float:
+    """Share of bubbles below half of the mean radius."""
+    middle = (np.arange(5000) + 0.5) / 10000
+    return float(np.mean(sizes.density_over_mean(theory, middle, 3)) / 2)
 
 
 def two_peaks(foams: Foams, series: str) -> str:
@@ -307,7 +348,9 @@ def summary(foams: Foams) -> Rows:
          f"crossovers less random close packing. spring: {above_packing(foams, 'spring')}. "
          f"sticky0.05: {above_packing(foams, 'sticky0.05')}"),
         ("Galvani et al. [G23]_", "an excess of small roaming bubbles below :math:`\\varphi^*`",
-         f"spring: {two_peaks(foams, 'spring')}; rattlers {ends_of(foams, 'spring', 'rattlers')}"),
+         f"spring: {two_peaks(foams, 'spring')}; rattlers {ends_of(foams, 'spring', 'rattlers')}; smaller than half of "
+         f"the mean {ends_of(foams, 'spring', 'below_0.5')} (Lemlich {below_half('lemlich'):.3f}, LSW "
+         f"{below_half('lsw'):.3f})"),
         ("the same", "a single narrow distribution above :math:`\\varphi^*`",
          f"spring: sd {ends_of(foams, 'spring', 'width')}"),
         ("Morgan & Cox [M26]_", "no adhesion, films only: unjamming at about 0.36",
@@ -328,12 +371,13 @@ def findings(foams: Foams) -> str:
     """Bullets for the manual."""
     if not foams:
         return f"* {MISSING}.\n"
-    bubbles = sorted({foam.row["bubbles"] for foam in foams.values()})
+    smaller = sorted({foam.row["bubbles"] for foam in foams.values()})[:-1]
     where = {what: shown(read_off(foams, "spring", what), foams, "spring") for what in READINGS}
-    halves = ", ".join(f"*{one}* {shown(read_off(foams, one, 'films'), foams, one)}"
+    halves = ", ".join(f"*{label(foams, one)}* {shown(read_off(foams, one, 'films'), foams, one)}"
                        for one in EXCHANGE if one != "films")
     lines = [
-        f"These numbers are of runs that begin with {' and '.join(f'{n:.0f}' for n in bubbles)} bubbles.",
+        f"These numbers are of runs that begin with {most_bubbles(foams):.0f} bubbles"
+        + "".join(f", or with {n:.0f} where the series has this number" for n in smaller) + ".",
         *(f"**Exponent** of {of}, *spring*. 1/n is {at_end(foams, 'spring', False, name)}. It is "
           f"{at_end(foams, 'spring', True, name)}." for of, name in (("the mean radius", "1/n"),
                                                                     ("the Sauter radius", "1/n_R32"))),
@@ -359,10 +403,11 @@ def run_table(foams: Foams, series: list[str], fractions: list[float]) -> Rows:
     for fraction in fractions:
         row = {"liquid fraction": f"{fraction:.2f}"}
         for one in series:
-            row[one] = MISSING
+            head = label(foams, one)
+            row[head] = MISSING
             if (one, fraction) in foams:
                 numbers = foams[one, fraction].row
-                row[one] = f"{numbers['minutes']:.0f}" + (f" ({numbers['runs']} runs)" if numbers["runs"] > 1 else "")
+                row[head] = f"{numbers['minutes']:.0f}" + (f" ({numbers['runs']} runs)" if numbers["runs"] > 1 else "")
         rows.append(row)
     return rows
 

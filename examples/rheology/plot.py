@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Pictures and fits of flow curves, collapse and start-up of shear, from what run.py left in a directory.
 
-    python3 plot.py DIR [--bubbles N] [--near DPHI]
+    python3 plot.py DIR [--bubbles N] [--near DPHI] [--degree N]
 
 Writes DIR/rheology.png (flow curves and their slopes), rheology-collapse.png (scaling around jamming, finite size),
 rheology-startup.png, and the means in rheology.csv. Prints fits with their errors, for several windows.
@@ -17,7 +17,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
-from collapse import Collapse, bootstrap
+from collapse import DEGREE, Collapse, bootstrap
 
 DRAGS = {"static": "drag of the liquid (RD)", "contact": "and between bubbles (CD)"}
 STYLE = {"font.size": 12, "axes.spines.top": False, "axes.spines.right": False, "legend.frameon": False,
@@ -152,17 +152,18 @@ def near_points(means, bubbles, top, near, what="stress"):
     return np.array(points).T
 
 
-def report_collapse(means, bubbles, near):
+def report_collapse(means, bubbles, near, degree=DEGREE):
     """Fits for some windows; those of the stress by their fastest rate."""
     fits = {}
-    print(f"\ncollapse, {bubbles} bubbles, |phi - 0.843| <= {near}: value = rate^q f((phi - phi_J) / rate^(1/z nu))")
+    print(f"\ncollapse, {bubbles} bubbles, |phi - 0.843| <= {near}, degree {degree}: value = rate^q f((phi - phi_J) / "
+          "rate^(1/z nu))")
     for what in ("stress", "pressure"):
         for top in WINDOWS:
             points = near_points(means, bubbles, top, near, what)
             if points.size == 0 or len(points[0]) < 16 or len(set(points[0])) < 4:
                 continue
-            fit = Collapse(*points)
-            off, ends = bootstrap(*points)
+            fit = Collapse(*points, degree)
+            off, ends = bootstrap(*points, degree)
             print(f"  {what:9s}rates to {top:g} ({fit.points} points): phi_J {fit.phi_j:.4f} +- {off[0]:.4f}, "
                   f"q {fit.q:.3f} +- {off[1]:.3f}, 1/z nu {fit.inverse:.2f} +- {off[2]:.2f}, beta {fit.beta:.2f} +- "
                   f"{off[3]:.2f}, Delta {fit.delta:.2f} +- {off[4]:.2f}, chi2 {fit.chi2:.1f}"
@@ -309,7 +310,7 @@ def draw_startup(curves, path):
     plt.close(fig)
 
 
-def make_pictures(directory, bubbles=None, near=NEAR):
+def make_pictures(directory, bubbles=None, near=NEAR, degree=DEGREE):
     means = read_curves(directory)
     curves = {key: c for key, c in startups(directory).items() if len(c[1]) > 1}
     plt.rcParams.update(STYLE)
@@ -322,7 +323,7 @@ def make_pictures(directory, bubbles=None, near=NEAR):
         report_sizes(means)
         pictures.append(directory / "rheology.png")
         draw_flow(means, bubbles, pictures[-1])
-        fits = {top: fit for top, fit in report_collapse(means, bubbles, near).items() if not fit.at_edge}
+        fits = {top: fit for top, fit in report_collapse(means, bubbles, near, degree).items() if not fit.at_edge}
         if fits:
             top = DRAWN if DRAWN in fits else min(fits)
             pictures.append(directory / "rheology-collapse.png")
@@ -339,8 +340,9 @@ def main():
     parser.add_argument("directory", type=Path)
     parser.add_argument("--bubbles", type=int, help="those of flow curves and collapse (the most frequent number)")
     parser.add_argument("--near", type=float, default=NEAR, help="|phi - 0.843| of points collapsed (%(default)s)")
+    parser.add_argument("--degree", type=int, default=DEGREE, help="of the polynomial of the collapse (%(default)s)")
     args = parser.parse_args()
-    make_pictures(args.directory, args.bubbles, args.near)
+    make_pictures(args.directory, args.bubbles, args.near, args.degree)
 
 
 if __name__ == "__main__":

@@ -16,12 +16,13 @@ from pathlib import Path
 
 import draw_avalanches
 import draw_exponents
+import draw_fewer
 import draw_questions
 import draw_separation
 from common import Place, compare, end_of, minutes
 
 PARTS = {"exponents": draw_exponents, "avalanches": draw_avalanches, "separation": draw_separation,
-         "questions": draw_questions}
+         "fewer": draw_fewer, "questions": draw_questions}
 
 
 def draw(directory: Path, figures: dict[str, list[str]], out: Path | None = None, pdf: bool = True,

@@ -78,6 +78,12 @@ def separation(full, seeds):
                 changes=DILUTED if how else ()) for phi, how in foams[:None if full else 3]]
 
 
+def fewer(full, seeds):
+    """Does the liquid separate with fewer bubbles, too? Those of figure 4.1 have no snapshots."""
+    return [Run(f"fewer{bubbles}-{seeds[0]}", 0.85, bubbles, end, seeds[0], frequency=0.05, every=5)
+            for bubbles, end in (((100000, 1000), (10000, 1000)) if full else ((2000, 300),))]
+
+
 def sizes(what):
     return (("sizes normal ${mean} ${std}", f"sizes {what}"),)
 
@@ -98,7 +104,8 @@ def questions(full, seeds):
               for name, case in cases.items())]
 
 
-FIGURES = {"exponents": exponents, "avalanches": avalanches, "separation": separation, "questions": questions}
+FIGURES = {"exponents": exponents, "avalanches": avalanches, "separation": separation, "fewer": fewer,
+           "questions": questions}
 
 
 # ------------------------------------------------------------------ running
@@ -159,12 +166,17 @@ def main():
     parser.add_argument("--full", action="store_true", help="foams as large as those of the thesis")
     parser.add_argument("--seeds", nargs="+", type=int, default=[1995],
                         help="of the exponents: one run each; of the others the first")
+    parser.add_argument("--only", nargs="+", metavar="RUN", help="some of these runs, by the names of --dry-run")
     parser.add_argument("--np", type=int, default=1, help="MPI ranks (default 1)")
     parser.add_argument("--dry-run", action="store_true", help="list the runs, and end")
     parser.add_argument("--no-plots", action="store_true", help="runs alone")
     args = parser.parse_args()
 
     wanted = {run.name: run for name in args.figure for run in FIGURES[name](args.full, args.seeds)}
+    unknown = set(args.only or ()) - wanted.keys()
+    if unknown:
+        parser.error(f"no such run: {', '.join(sorted(unknown))} (--dry-run lists them)")
+    wanted = {name: run for name, run in wanted.items() if not args.only or name in args.only}
     if args.dry_run:
         for run in wanted.values():
             print(f"{run.name:22}{run.bubbles:9} bubbles to {run.end}, phi {run.phi}, kappa {run.kappa}, "

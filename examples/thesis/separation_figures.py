@@ -108,7 +108,7 @@ def draw_maps(place: Place, surveys, name: str) -> None:
             ax.set(title=rf"{label_of(one.name)}, $\tau$ = {tau:.0f}")
             whole_box(ax, frame)
     fig.colorbar(drawn, ax=axes, shrink=0.7, label="local gas fraction")
-    place.save(fig, name, dpi=90, colors=48)
+    place.save(fig, name, dpi=90, colors=256)
 
 
 def draw_energies(place: Place, one) -> None:

@@ -301,7 +301,7 @@ void FixLiquidFlow::stop(double dt) const
              update->ntimestep, dt, solved.residual, solved.iterations, tolerance, most_iterations);
 }
 
-// from x* back to where a shorter step leads
+// From x* back to where a shorter step leads; what a wall has stopped stays there
 
 void FixLiquidFlow::begin_again(double dt)
 {

@@ -89,6 +89,44 @@ def test_numbers_with_errors(modules):
     assert tables.verdict(0.40, 0.10) == "too uncertain to tell 1/2 from 1/3"
 
 
+# ------------------------------------------------------------------ runs of several sizes
+
+def foam_of(states, series, fraction, bubbles):
+    row = {"bubbles": float(bubbles), "last_N": 100.0, "1/n": 0.4, "1/n_error": 0.01}
+    return (series, fraction), states.Foam(series, fraction, [], row)
+
+
+def test_series_without_large_runs_are_those_of_smaller_ones(modules):
+    _, states, tables = modules
+    large = dict([foam_of(states, "spring", 0.30, 30000)])
+    small = dict([foam_of(states, "spring", 0.20, 2000), foam_of(states, "area", 0.20, 2000)])
+    foams = tables.with_smaller(large, small)
+    assert sorted(foams) == [("area", 0.20), ("spring", 0.30)]
+    assert tables.matrix(foams, ["spring", "area", "films"], [0.20, 0.30], "1/n") == [
+        {"liquid fraction": "0.20", "spring": "not run yet", "area (2000)": "0.400(10)", "films": "not run yet"},
+        {"liquid fraction": "0.30", "spring": "0.400(10)", "area (2000)": "not run yet", "films": "not run yet"}]
+    assert tables.with_smaller({}, small) == small and tables.label(small, "area") == "area"
+
+
+def test_changes_of_runs_that_are_not_here_stay(modules, tmp_path):
+    _, _, tables = modules
+    old = {"series": "spring", "change": "a tenth of K", "bubbles": "2000", "liquid fraction": "0.30",
+           "rattlers": "-0.1(1)"}
+    tables.write([old], tmp_path / "changes.csv")
+    new = {**old, "liquid fraction": "0.20", "rattlers": "0"}
+    again = {**old, "rattlers": "-0.2(1)"}
+    assert tables.keep_others([new], tmp_path / "changes.csv") == [new, old]
+    assert tables.keep_others([again], tmp_path / "changes.csv") == [again]
+    assert tables.keep_others([], tmp_path / "nothing.csv") == []
+
+
+def test_small_bubbles_of_theories(modules):
+    _, _, tables = modules
+    # the table of doc/microgravity.rst: LSW 0.029, Lemlich 0.098
+    assert tables.below_half("lsw") == pytest.approx(0.029, abs=0.0005)
+    assert tables.below_half("lemlich") == pytest.approx(0.098, abs=0.0005)
+
+
 # ------------------------------------------------------------------ two bubbles
 
 def pair(states, distance):
@@ -181,3 +219,8 @@ def test_a_small_run_and_one_that_stops(tmp_path):
     assert 0.30 < float(numbers["spring"]["rcp"]) < 0.40
     films = {row["liquid fraction"]: row["films"] for row in table(tmp_path / "out" / "exponents-exchange.csv")}
     assert films["0.36"] == "not run yet" and films["0.45"].startswith("stops at ")
+
+    done = python("plot.py", tmp_path / "out", "--small", tmp_path, "--no-pdf")
+    assert done.returncode == 0, done.stderr
+    again = {row["series"]: row for row in table(tmp_path / "out" / "microgravity.csv")}
+    assert again["spring"]["1/n"] == numbers["spring"]["1/n"]

@@ -15,13 +15,13 @@ sys.path.insert(0, str(THESIS))
 from common import Place, Result, compare, minutes     # noqa: E402
 
 
-def run_that_grows(directory, exponent, complete=True):
+def run_that_grows(directory, exponent, complete=True, end=100):
     """R = (1 + tau)^exponent, of 2000 bubbles that become 100."""
     directory.mkdir(parents=True)
     tau = np.concatenate(([0.0], np.geomspace(1.0e-3, 1.0e5, 4000)))
     R = (1 + tau)**exponent
     N = np.ceil(2000 / R**2)
-    last = np.flatnonzero(N <= 100)[0] + 1
+    last = np.flatnonzero(N <= end)[0] + 1
     rows = np.column_stack([np.arange(len(tau)), tau, N, R])[:last]
     np.savetxt(directory / "series.csv", rows, fmt="%.12g", delimiter=",", header="step,tau,N,R", comments="")
     (directory / "log.foam").write_text("Loop time of 20 on 1 procs\nTotal wall time: 0:03:00\n")
@@ -66,6 +66,40 @@ def test_wrong_directory(tmp_path):
     done = plot(tmp_path / "nothing")
     assert done.returncode != 0 and "is no directory; it should be the --out of run.py" in done.stderr
     assert "Traceback" not in done.stderr
+
+
+def test_some_of_the_runs():
+    done = subprocess.run([sys.executable, THESIS / "run.py", "--full", "--only", "phi0.85-1995", "--dry-run"],
+                          capture_output=True, text=True, timeout=60)
+    assert done.returncode == 0 and done.stdout.startswith("phi0.85-1995 ") and done.stdout.count("\n") == 1
+    done = subprocess.run([sys.executable, THESIS / "run.py", "--only", "phi0.87-1995", "--dry-run"],
+                          capture_output=True, text=True, timeout=60)
+    assert done.returncode != 0 and "no such run: phi0.87-1995" in done.stderr
+
+
+def causes(directory, figures):
+    return subprocess.run([sys.executable, THESIS / "causes.py", "--out", directory, "--no-runs", "--figures", figures,
+                           "--no-pdf"], capture_output=True, text=True, timeout=300)
+
+
+def test_causes_that_are_not_here_stay_in_the_table(tmp_path):
+    for case, exponents in (("as-figure-4.1", (0.45, 0.46)), ("kappa-0", (0.40, 0.41)), ("K-1e-4", (0.47,))):
+        for seed, exponent in enumerate(exponents, 1):
+            run_that_grows(tmp_path / f"phi1.00-{case}-{seed}" / "run", exponent, end=20)
+    done = causes(tmp_path, tmp_path / "out")
+    assert done.returncode == 0, done.stderr
+    before = table(tmp_path / "out" / "causes.csv")
+    assert [(row["case"], row["runs"]) for row in before] == [("as figure 4.1", "2"), ("kappa 0", "2"), ("K 1e-4", "1")]
+    # R = (1 + tau)^b: the slope is b tau / (1 + tau), and the difference of two slopes a little less than that of the b
+    assert [float(row["change"]) for row in before[1:]] == [pytest.approx(-0.05, rel=0.1), pytest.approx(0.02, rel=0.1)]
+
+    for seed in (1, 2):
+        (tmp_path / f"phi1.00-kappa-0-{seed}" / "run" / "complete").unlink()
+    done = causes(tmp_path, tmp_path / "out")
+    assert done.returncode == 0, done.stderr
+    assert table(tmp_path / "out" / "causes.csv") == before
+    assert {row["case"] for row in table(tmp_path / "out" / "causes-curves.csv")} == {row["case"] for row in before}
+    assert (tmp_path / "out" / "thesis-causes.png").exists()
 
 
 def test_minutes_of_a_run_that_was_interrupted(tmp_path):
