@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""What a liquid alone has to show: a vortex, a tank at rest, a dam break beside LAMMPS' own SPH; figures by plot.py.
+"""What a liquid alone has to show: flows whose laws are known, turbulence, a tank at rest, a dam break beside that of
+LAMMPS' own SPH, what precision costs; figures by plot.py.
 
-    python3 run.py --lmp lmp --out DIR                        some minutes on one core
-    python3 run.py --lmp lmp --out DIR --full                 finer ones too
+    python3 run.py --lmp lmp --out DIR                        TIME on one core
+    python3 run.py --lmp lmp --out DIR --full                 finer ones too: FULLTIME
     python3 run.py --lmp lmp --out DIR --only vortex tank     some of them
 
 A run that is complete is not done again, so that this can be stopped and started; --dry-run lists the runs. Times are
@@ -21,9 +22,22 @@ import subprocess
 import sys
 import time
 
+from written import folder
+
 HERE = Path(__file__).resolve().parent
-GROUPS = ("vortex", "tank", "dambreak", "iterations")
+GROUPS = ("vortex", "beltrami", "turbulence", "bubble", "tank", "dambreak", "pairs", "precision", "iterations")
 LIMITED = "1.0"                                        # longest step: what the flow allows
+CLOSURES = {"none": "none", "mixed": "mixed 0.06", "smagorinsky": "smagorinsky 0.1"}
+PUSHED = {"force": "1.0", "push": "6", "T": "8"}       # pushed until 6, then left alone
+RADII = ("0.1", "0.2", "0.4")                          # of a bubble, over the spacing
+PLACES = (("0.1", "0.2", "0.3"), ("0.0", "0.0", "0.0"), ("0.5", "0.5", "0.5"), ("0.4", "0.1", "0.25"))
+VORTICES: dict[str, dict[str, str]] = {                # what differs from in.vortex with steps below 0.004
+    "lattice": {"n": "24", "jiggle": "0"},
+    "tol 1e-3": {"tol": "1.0e-3"},
+    "tol 1e-9": {"tol": "1.0e-9"},
+    "ma 0.01": {"ma": "0.01"},
+    "ma 0": {"ma": "0"},
+}
 TANKS: dict[str, dict[str, str]] = {
     "Re 100": {"Re": "100", "les": "none"},
     "Re 100 mixed": {"Re": "100"},
@@ -39,7 +53,13 @@ SETTINGS: dict[str, dict[str, str]] = {                # what differs from in.da
     "no eddies": {"les": "none"},
     "Re 1e4": {"Re": "1.0e4"},
     "ma 0": {"ma": "0"},
+    "ma 0.1": {"ma": "0.1"},
+    "ma 0.2": {"ma": "0.2"},
+    "tol 1e-1": {"tol": "1.0e-1"},
+    "tol 1e-2": {"tol": "1.0e-2"},
+    "tol 1e-3": {"tol": "1.0e-3"},
     "tol 1e-4": {"tol": "1.0e-4"},
+    "tol 1e-8": {"tol": "1.0e-8"},
     "published": {"gravity": "published", "shift": "published"},
     "shift published": {"shift": "published"},
 }
@@ -51,13 +71,39 @@ SHORT_STEPS: dict[str, dict[str, str]] = {             # the flow allows 0.01 or
     "shift published dt 0.00125": {"shift": "published", "dtmax": "0.00125"},
 }
 EXPLICIT: dict[str, dict[str, str]] = {                # what differs from explicit.lmp
-    "alpha 0.02": {"alpha": "0.02"},
-    "alpha 0.02 half steps": {"alpha": "0.02", "courant": "0.1"},
+    "alpha 0.1": {"alpha": "0.1"},
+    "alpha 0.05": {"alpha": "0.05"},
+    "alpha 0.01": {"alpha": "0.01"},
+    "steps twice as long": {"courant": "0.2"},
+    "steps half as long": {"courant": "0.05"},
     "c 5": {"c": "5"},
+    "c 14": {"c": "14"},
     "c 20": {"c": "20"},
+    "c 20 alpha 0.01": {"c": "20", "alpha": "0.01"},
+    "reach 2.2": {"reach": "2.2"},
     "reach 3": {"reach": "3.0"},
+    "hydrostatic": {"start": "hydrostatic"},
     "walls reflect": {"walls": "reflect"},
 }
+RHEO: dict[str, dict[str, str]] = {                    # what differs from rheo.lmp
+    "steps twice as long": {"courant": "0.2"},
+    "c 5": {"c": "5"},
+    "without shifts": {"more": "surface/detection divergence 2.4 8 interface/reconstruct"},
+}
+PRECISION: dict[str, dict[str, str]] = {               # what differs from in.turbulence at Re 50
+    "ma 0.01": {"ma": "0.01"},
+    "ma 0.2": {"ma": "0.2"},
+    "ma 0.5": {"ma": "0.5"},
+    "tol 1e-1": {"tol": "1.0e-1"},
+    "tol 1e-2": {"tol": "1.0e-2"},
+    "tol 1e-3": {"tol": "1.0e-3"},
+    "tol 1e-4": {"tol": "1.0e-4"},
+    "tol 1e-8": {"tol": "1.0e-8"},
+    "dt 1/2": {"dtmax": "0.005"},                      # the flow begins with 0.010 at n = 16
+    "dt 1/4": {"dtmax": "0.0025"},
+    "dt 1/8": {"dtmax": "0.00125"},
+}
+METHODS = {"projection": "in.dambreak", "explicit": "explicit.lmp", "rheo": "rheo.lmp"}
 
 
 @dataclass(frozen=True)
@@ -72,35 +118,74 @@ class Run:
 
 def sizes(group: str, full: bool) -> list[int]:
     """Particles along a unit of length."""
-    few, more = {"vortex": ([12, 16, 24], [32, 48]), "dambreak": ([8, 12, 16, 24], [32, 48]),
+    few, more = {"vortex": ([12, 16, 24], [32, 48]), "beltrami": ([8, 12, 16, 24], [32, 48]),
+                 "turbulence": ([24], [32]), "dambreak": ([8, 12, 16, 24], [32, 48]),
+                 "rheo": ([8, 12, 16], [24]), "pairs": ([8, 16], [24]),
                  "iterations": ([8, 12, 16, 24], [32, 48, 64])}[group]
     return few + more if full else few
 
 
-def runs(groups: list[str], full: bool) -> Iterator[Run]:
+def runs_of_vortices(groups: list[str], full: bool) -> Iterator[Run]:
     if "vortex" in groups:
         for n in sizes("vortex", full):
             for dtmax in (LIMITED, "0.004", "0.001"):
                 yield Run(f"vortex/{n}-{dtmax}", "in.vortex", (("n", str(n)), ("dtmax", dtmax)))
-        yield Run("vortex/lattice", "in.vortex", (("n", "24"), ("dtmax", "0.004"), ("jiggle", "0")))
+        for name, words in VORTICES.items():
+            yield Run(f"vortex/{folder(name)}", "in.vortex", tuple({"dtmax": "0.004", **words}.items()))
         for dtmax in ("0.004", "0.001") if full else ():
             yield Run(f"vortex/wide-{dtmax}", "in.vortex",
                       (("n", "24"), ("dtmax", dtmax), ("h", "1.5"), ("layers", "7")))
-    if "tank" in groups:
-        for name, words in {**TANKS, **(FINE_TANKS if full else {})}.items():
-            yield Run(f"tank/{name.replace(' ', '-')}", "in.tank", tuple({"steps": "10000", **words}.items()))
+    if "beltrami" in groups:
+        for n in sizes("beltrami", full):
+            for dtmax in (LIMITED, "0.002"):
+                yield Run(f"beltrami/{n}-{dtmax}", "in.turbulence", (("n", str(n)), ("dtmax", dtmax), ("frame", "1")))
+    if "turbulence" in groups:
+        high = {"Re": "1.0e6", "frame": "0.5", "report": "50"}
+        for n in sizes("turbulence", full):
+            for name in CLOSURES if n == 24 else ("none", "mixed"):
+                yield Run(f"turbulence/{n}-{name}", "in.turbulence",
+                          tuple({"n": str(n), **high, "les": CLOSURES[name], "T": "4"}.items()))
+        yield Run("turbulence/pushed-mixed", "in.turbulence",
+                  tuple({"n": "24", **high, "les": CLOSURES["mixed"], **PUSHED}.items()))
+
+
+def runs_of_columns(groups: list[str], full: bool) -> Iterator[Run]:
     if "dambreak" in groups:
-        for n in sizes("dambreak", full):
-            yield Run(f"dambreak/{n}", "in.dambreak", (("n", str(n)),))
-            yield Run(f"explicit/{n}", "explicit.lmp", (("n", str(n)),))
-        for name, words in {**SETTINGS, **(SHORT_STEPS if full else {})}.items():
-            yield Run(f"dambreak/{name.replace(' ', '-')}", "in.dambreak", tuple(words.items()))
-        for name, words in EXPLICIT.items():
-            yield Run(f"explicit/{name.replace(' ', '-')}", "explicit.lmp", tuple(words.items()))
+        for method, script in METHODS.items():
+            for n in sizes("rheo" if method == "rheo" else "dambreak", full):
+                yield Run(f"{method}/{n}", script, (("n", str(n)),))
+        variants = {"projection": {**SETTINGS, **(SHORT_STEPS if full else {})}, "explicit": EXPLICIT,
+                    "rheo": RHEO if full else {}}
+        for method, some in variants.items():
+            for name, words in some.items():
+                yield Run(f"{method}/{folder(name)}", METHODS[method], tuple(words.items()))
+    if "pairs" in groups:
+        for n in sizes("pairs", full):
+            for repeat in range(1, 6 if n < 24 else 4):
+                for method in ("projection", "explicit"):
+                    yield Run(f"pairs/{n}-{repeat}-{method}", METHODS[method], (("n", str(n)),))
     if "iterations" in groups:
         for n in sizes("iterations", full):
             for ma in ("0", "0.05", "0.2"):
                 yield Run(f"iterations/{n}-{ma}", "in.dambreak", (("n", str(n)), ("ma", ma), ("T", "0.5")))
+
+
+def runs(groups: list[str], full: bool) -> Iterator[Run]:
+    yield from runs_of_vortices(groups, full)
+    if "bubble" in groups:
+        for radius in RADII:
+            for number, place in enumerate(PLACES):
+                yield Run(f"bubble/{radius}-{number}", "in.bubble",
+                          (("a", radius), *zip(("px", "py", "pz"), place)))
+        for dt in ("0.01", "1.0"):
+            yield Run(f"bubble/dt-{dt}", "in.bubble", (("dt", dt),))
+    if "tank" in groups:
+        for name, words in {**TANKS, **(FINE_TANKS if full else {})}.items():
+            yield Run(f"tank/{folder(name)}", "in.tank", tuple({"steps": "10000", **words}.items()))
+    yield from runs_of_columns(groups, full)
+    if "precision" in groups:
+        for name, words in PRECISION.items():
+            yield Run(f"precision/{folder(name)}", "in.turbulence", tuple({**words, "frame": "1"}.items()))
 
 
 def command_words(command: str) -> list[str]:

@@ -156,8 +156,9 @@ def draw_sizes(foams: tables.Foams, base: Path, pdf: bool) -> None:
                 ax.plot(x, sizes.density_over_mean(theory, x, 3), style, lw=0.8,
                         label="LSW" if theory == "lsw" else "Lemlich")
             ax.set(title=f"{foam.series}, {foam.fraction:.2f}", xlim=(0, 3), ylim=(0, 2.3))
-            if row == len(rows) - 1:
+            if row == len(rows) - 1 or column >= len(rows[row + 1]):    # nothing below
                 ax.set(xlabel=r"$R / \langle R\rangle$")
+                ax.tick_params(labelbottom=True)
         axes[row * columns].set(ylabel="density")
     axes[0].legend()
     save(fig, base, pdf)

@@ -16,7 +16,7 @@ from states import EDGES, Foam, is_late
 Foams = dict[tuple[str, float], Foam]
 Rows = list[dict[str, str]]
 ADHESION = ["spring", "sticky0.01", "sticky0.05"]
-EXCHANGE = ["spring", "kappa1", "kappa0.01", "films", "area", "sticky0.01-area"]
+EXCHANGE = ["spring", "kappa1", "kappa0.01", "sticky0.05-kappa0.01", "films", "area", "sticky0.01-area"]
 MISSING = "not run yet"
 SIGMAS = 2.0           # two values agree if they differ by less standard errors
 PEAK_SIGMAS = 3.0      # of a valley between two peaks: there are 40 bins, and some differ by two by chance
