@@ -5,8 +5,8 @@
     python3 plot.py DIR --full --no-pdf --out FOLDER     tables list all runs of run.py --full
     python3 plot.py DIR --full --small DIR2              with smaller runs where DIR has none
 
-A series that DIR has not is taken from DIR2, and its number of bubbles stands beside its name. changes.csv keeps what
-stands there of runs that are not here.
+A series of which DIR has one liquid fraction at most is taken from DIR2, and its number of bubbles stands beside its
+name. changes.csv keeps what stands there of runs that are not here.
 
 microgravity.csv has all numbers. states.py says how they are measured, crossover.py how crossovers are read off,
 tables.py makes the tables of the manual. What is not run yet is said to be so.
@@ -240,7 +240,7 @@ def main() -> None:
     parser.add_argument("directory", type=Path, metavar="DIR", help="the --out of run.py")
     parser.add_argument("--out", type=Path, metavar="FOLDER", help="of figures and tables (default: DIR)")
     parser.add_argument("--full", action="store_true", help="list all runs of run.py --full")
-    parser.add_argument("--small", type=Path, metavar="DIR2", help="of smaller runs, for series that DIR has not")
+    parser.add_argument("--small", type=Path, metavar="DIR2", help="of smaller runs, for series that DIR lacks")
     parser.add_argument("--no-pdf", action="store_true", help="PNG alone")
     args = parser.parse_args()
     for directory in (args.directory, *([args.small] if args.small else [])):

@@ -23,7 +23,6 @@ SERIES = {                 # name: law of contact, law of the exchange through t
     "area": ("spring", "area", 0.1),
     "sticky0.01-area": ("sticky 0.01", "area", 0.1),
     "kappa0.01": ("spring", "lsw", 0.01),
-    "sticky0.05-kappa0.01": ("sticky 0.05", "lsw", 0.01),
     "kappa1": ("spring", "lsw", 1.0),
     "films": ("spring", "lsw", 0.0),
 }

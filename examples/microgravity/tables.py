@@ -4,6 +4,7 @@ Each conclusion is made from the numbers of the runs. What is not run yet is sai
 """
 from __future__ import annotations
 
+from collections import Counter
 import csv
 from pathlib import Path
 
@@ -16,7 +17,7 @@ from states import EDGES, Foam, is_late
 Foams = dict[tuple[str, float], Foam]
 Rows = list[dict[str, str]]
 ADHESION = ["spring", "sticky0.01", "sticky0.05"]
-EXCHANGE = ["spring", "kappa1", "kappa0.01", "sticky0.05-kappa0.01", "films", "area", "sticky0.01-area"]
+EXCHANGE = ["spring", "kappa1", "kappa0.01", "films", "area", "sticky0.01-area"]
 MISSING = "not run yet"
 SIGMAS = 2.0           # two values agree if they differ by less standard errors
 PEAK_SIGMAS = 3.0      # of a valley between two peaks: there are 40 bins, and some differ by two by chance
@@ -44,9 +45,14 @@ def cell(foams: Foams, key: tuple[str, float], name: str) -> str:
 
 
 def with_smaller(foams: Foams, smaller: Foams) -> Foams:
-    """Foams, and those of smaller runs of series that have no others."""
-    have = {series for series, _ in foams}
-    return dict(sorted({**{key: foam for key, foam in smaller.items() if key[0] not in have}, **foams}.items()))
+    """Foams, and those of smaller runs of series that have one liquid fraction of larger ones at most.
+
+    A series has one size: what depends on the liquid fraction must not depend on two numbers of bubbles.
+    """
+    count = Counter(series for series, _ in foams)
+    small = {series for series, _ in smaller if count[series] < 2}
+    return dict(sorted([*((key, foam) for key, foam in smaller.items() if key[0] in small),
+                        *((key, foam) for key, foam in foams.items() if key[0] not in small)]))
 
 
 def most_bubbles(foams: Foams) -> float:

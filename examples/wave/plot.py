@@ -185,7 +185,7 @@ def draw_energy(waves: dict[str, Wave], out: Path, name: str) -> None:
         left.plot(time, wave.series["kinetic"] / wave.series["kinetic"][0], ":", color=line.get_color())
         middle.plot(time, wave.entrained)
         right.plot(time, wave.series["gas"])
-    left.set(xlabel="t", ylabel="energy, over the first (dotted: kinetic)", ylim=(0, None))
+    left.set(xlabel="t", ylabel="energy (dotted: kinetic)", ylim=(0, None))
     middle.set(xlabel="t", ylabel="volume entrained so far")
     right.set(xlabel="t", ylabel="volume of the bubbles")
     left.legend(ncols=2)

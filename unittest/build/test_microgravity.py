@@ -98,13 +98,14 @@ def foam_of(states, series, fraction, bubbles):
 
 def test_series_without_large_runs_are_those_of_smaller_ones(modules):
     _, states, tables = modules
-    large = dict([foam_of(states, "spring", 0.30, 30000)])
-    small = dict([foam_of(states, "spring", 0.20, 2000), foam_of(states, "area", 0.20, 2000)])
+    large = dict(foam_of(states, *what, 30000) for what in (("spring", 0.25), ("spring", 0.30), ("area", 0.30)))
+    small = dict(foam_of(states, *what, 2000) for what in (("spring", 0.20), ("area", 0.20)))
     foams = tables.with_smaller(large, small)
-    assert sorted(foams) == [("area", 0.20), ("spring", 0.30)]
+    assert sorted(foams) == [("area", 0.20), ("spring", 0.25), ("spring", 0.30)]
     assert tables.matrix(foams, ["spring", "area", "films"], [0.20, 0.30], "1/n") == [
         {"liquid fraction": "0.20", "spring": "not run yet", "area (2000)": "0.400(10)", "films": "not run yet"},
         {"liquid fraction": "0.30", "spring": "0.400(10)", "area (2000)": "not run yet", "films": "not run yet"}]
+    assert ("area", 0.30) in tables.with_smaller(large, {})
     assert tables.with_smaller({}, small) == small and tables.label(small, "area") == "area"
 
 
