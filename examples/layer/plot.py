@@ -19,6 +19,7 @@ from matplotlib import pyplot as plt
 from matplotlib.collections import EllipseCollection
 import numpy as np
 from numpy.typing import NDArray
+from scipy.optimize import brentq
 
 from lammps_foam.analysis import figure, table
 from lammps_foam.analysis.read import Frame, Unusable, read_frames, read_series
@@ -104,6 +105,25 @@ def mean_depth(gas: dict[str, Array], s: dict[str, float]) -> float:
     return float(np.average(1 - gas["z"], weights=weight)) / s["a"]
 
 
+def alone(s: dict[str, float]) -> tuple[float, float, float]:
+    """A bubble of the mean radius by itself: speed (m/s) where buoyancy is the drag of a rigid sphere, Re and We."""
+    def excess(u: float) -> float:
+        re = 2 * s["R"] * s["rho"] * u / s["mu"]
+        return 24 / re * (1 + 0.15 * re**0.687) * u**2 - 8 / 3 * s["R"] * s["g"] * (1 - s["gas"] / s["rho"])
+    u = float(brentq(excess, 1e-6, 10.0))
+    return u, 2 * s["R"] * s["rho"] * u / s["mu"], 2 * s["R"] * s["rho"] * u**2 / s["sigma"]
+
+
+def on_axis(run: Run) -> float:
+    """Mean speed of the liquid upwards near the axis (m/s), in the later half of the time in which gas comes."""
+    s, speeds = run.s, []
+    for frame in run.frames:
+        if 0.5 * s["fill"] < run.seconds(frame) < s["fill"]:
+            mine = (frame["type"] == 1) & (np.hypot(frame["x"], frame["y"]) < 0.1) & (abs(frame["z"] - 0.55) < 0.2)
+            speeds.append(frame["vz"][mine])
+    return float(np.mean(np.concatenate(speeds))) * s["W"] * s["second"]
+
+
 def of_real_foam(pressure: float) -> float:
     """Gas fraction by the osmotic pressure over sigma/R32: Maestro et al., Soft Matter 9, 2531 (2013), disordered."""
     liquid = np.linspace(0.36, 1e-3, 4000)
@@ -114,8 +134,11 @@ def numbers(run: Run) -> dict[str, float]:
     s, series = run.s, run.series
     mm3 = 1e9 * s["W"]**3
     last = {stage: np.flatnonzero(series["stage"] <= stage)[-1] for stage in (PLUME, CALM, PACK)}
+    later = (series["seconds"] > 0.5 * s["fill"]) & (series["seconds"] < s["fill"])
     found = {"time_ms": 1e3 / s["second"], "Re": s["Re"], "We": s["We"], "radius": s["a"],
              "radius_over_dr": s["a"] / s["dr"], "bond": (s["rho"] - s["gas"]) * s["g"] * s["R"]**2 / s["sigma"],
+             **dict(zip(("alone_speed", "alone_Re", "alone_We"), alone(s))), "axis_speed": on_axis(run),
+             "on_their_way": float(np.mean((series["bubbles"] - series["layer"])[later])),
              "bubbles": series["bubbles"][last[PLUME]], "given_mm3": mm3 * series["given"][last[PLUME]],
              "burst_mm3": mm3 * series["burst"][-1],
              "seen": series["seen"][last[CALM]] / max(series["gas"][last[CALM]], 1e-30),
