@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Layers of foam by in.layer, and figures by plot.py.
 
-    python3 run.py --lmp lmp --out DIR                     all: half an hour on one core
+    python3 run.py --lmp lmp --out DIR                     all: seven minutes on one core
     python3 run.py --lmp lmp --out DIR --only stiff        some of them
-    python3 run.py --lmp lmp --out DIR --full              a wider tank, too: hours
+    python3 run.py --lmp lmp --out DIR --full              a wider tank, too
 
 scene: a tank with three layers of bubbles. stiff: contacts in the plume that are as hard as bubbles, and softer ones.
 liquid: a finer liquid. rules: bubbles that burst at the surface, eddies that are not resolved, walls that the liquid
