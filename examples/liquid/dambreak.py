@@ -116,7 +116,7 @@ def pairs(out: Path) -> Rows:
 # ---------------------------------------------------------------- figures
 
 def draw_pictures(out: Path, n: int, potential: Series) -> None:
-    fig, axes = figure.panels(3, 2, width=3.1, height=1.25)
+    fig, axes = figure.panels(3, 2, width=3.1, height=1.1)
     points = None
     for column, method in enumerate(("projection", "explicit")):
         frames = list(read_frames(out / method / str(n) / "dambreak.lammpstrj"))
@@ -136,8 +136,10 @@ def draw_front(out: Path, rows: Rows, n: int, potential: Series) -> None:
     fig, (left, middle, right) = figure.panels(1, 3, width=2.5, height=2.6)
     left.plot(potential["time"], potential["front"], "k-", label="potential flow")
     left.plot(*np.array(MEASURED).T, "s", color="0.5", label="Martin and Moyce")
+    finest = {method: max((row["n"] for row in of_sizes(rows) if row["method"] == method), default=n)
+              for method in MARKS}
     for method, style in (("projection", "-"), ("explicit", "--"), ("rheo", ":")):
-        for size, colour in ((8, "#56B4E9"), (n, "#0072B2")):
+        for size, colour in ((8, "#56B4E9"), (finest[method], "#0072B2")):
             path = out / method / str(size)
             if is_complete(path):
                 left.plot(*fronts(path, size), style, color=colour, label=f"{TITLES[method]}, n = {size}")
@@ -150,6 +152,7 @@ def draw_front(out: Path, rows: Rows, n: int, potential: Series) -> None:
             middle.annotate(str(row["n"]), (row["seconds"], row["error"]), (3, 3), textcoords="offset points",
                             fontsize=6)
     middle.set(xlabel="seconds of CPU", ylabel="error of the front / a", xscale="log", yscale="log")
+    middle.margins(0.12)
     middle.legend()
     names = ["16", "shift-published", *(folder(name) for name in SHORT_STEPS)]
     colours: dict[float, str] = {}
@@ -164,7 +167,7 @@ def draw_front(out: Path, rows: Rows, n: int, potential: Series) -> None:
                        label=label + (", shift published" if "published" in name else ""))
     right.axhline(0, color="0.6", lw=0.7)
     right.set(xlabel=r"$t\,\sqrt{g/a}$", ylabel="front - potential flow", title="n = 16",
-              xlim=(0, UNTIL), ylim=(-0.25, 0.45))
+              xlim=(0, UNTIL), ylim=(-0.25, 0.3))
     right.legend(fontsize=6, loc="upper left")
     figure.save(fig, out / "front")
 

@@ -45,6 +45,7 @@ TANKS: dict[str, dict[str, str]] = {
     "Re 1e4 mixed": {},
     "gravity published": {"les": "none", "gravity": "published", "shift": "published", "steps": "2000"},
     "shift published": {"les": "none", "shift": "published"},
+    "tol 1e-3": {"tol": "1.0e-3", "steps": "2000"},
 }
 FINE_TANKS: dict[str, dict[str, str]] = {
     "Re 1e4 n 24": {"les": "none", "n": "24"},
