@@ -94,6 +94,10 @@ FixLiquidFlow::FixLiquidFlow(LAMMPS *lmp, int narg, char **arg) : FixFoamTravell
         [&](const Value &v) {
           set.balanced = v.one_of({"published", "balanced"});
         }},
+       {"divergence",
+        [&](const Value &v) {
+          set.sticks = v.one_of({"slip", "published"});
+        }},
        {"pressure",
         [&](const Value &v) {
           from_variable(v, PRESSURE);

@@ -273,13 +273,15 @@ template <class B> struct KeepBubbles {
   bool back;    // from there
   FOAM_FUNCTION void operator()(int i) const
   {
-    for (int k = 0; k < BEFORE_STEP; k++) {
-      double &now = k < 3 ? b.v(i, k) : at.state(k - 3, i);
-      if (back)
-        now = kept[k][i];
-      else
-        kept[k][i] = now;
-    }
+    for (int k = 0; k < 3; k++) exchange(b.v(i, k), kept[k][i]);
+    for (int k = 3; k < BEFORE_STEP; k++) exchange(at.state(k - 3, i), kept[k][i]);
+  }
+  template <class Number> FOAM_FUNCTION void exchange(Number &now, double &before) const
+  {
+    if (back)
+      now = before;
+    else
+      before = now;
   }
 };
 

@@ -65,6 +65,7 @@ struct Setting {
   bool shifts = true, slides = true;      // slides: shifts go along the surface wherever it is near
   bool balanced = true;                   // the pressure of a liquid at rest is found exactly
   bool published = false;                 // momentum as [K23] prints it: see Predict
+  bool sticks = false;                    // div u* sees what sticks to walls: see Assemble
   Closure closure;
 
   FOAM_FUNCTION double volume_of_liquid() const { return dr * dr * dr; }
@@ -331,6 +332,10 @@ template <class B, class List> struct Predict : Loop<B, List> {
 //
 // Morris' sums give a linear function a Laplacian where particles are in disorder, so that gravity sets a liquid at rest in
 // motion.  Balanced, they are taken of what p has beyond the hydrostatic pressure, p - x . e_g/Fr^2.
+//
+// lap p has images with p of their particle, so that it is the divergence of a grad p that slips along walls.  div u* is
+// taken likewise, also where walls do not slip.  With images that are reversed, a u* along a wall that is not resolved there
+// has a divergence where particles are in disorder, which no p removes: corners shoot single particles out.
 
 template <class B, class List, class Matrix> struct Assemble : Loop<B, List> {
   static constexpr const char *NAME = "liquid: assemble";
@@ -365,8 +370,10 @@ template <class B, class List, class Matrix> struct Assemble : Loop<B, List> {
       double weight = laplacian_weight(s, V);
       if (this->set.published)
         weight += s * V * (steep[0] * r[0] + steep[1] * r[1] + steep[2] * r[2]);
+      Image seen = image;
+      if (!this->set.sticks) seen.noslip = 0;
       for (int k = 0; k < 3; k++) {
-        const double d = image.velocity(c(STAR + k, j), k) - star[k];
+        const double d = seen.velocity(c(STAR + k, j), k) - star[k];
         for (int a = 0; a < 3; a++) difference[a][k] += V * s * r[a] * d;
         const double from =
             this->set.balanced ? this->b.x(i, k) : image.coordinate(this->b.x(j, k), k);

@@ -102,7 +102,8 @@ COLUMNS = {
     "stress of collisions": "inertia: energies and stresses",
     "state of the liquid": "liquid: plain", "columns of the liquid": "liquid: plain",
     "vectors of the solver": "liquid: liquid alone", "state of bubbles in a liquid": "liquid: plain",
-    "columns of bubbles in a liquid": "liquid: plain",
+    "columns of bubbles in a liquid": "liquid: plain", "bubbles before the step": "liquid: plain",
+    "dissipation at the surface": "liquid: entrained",
 }
 ELSEWHERE = {"residuals of places"}    # in use in single precision alone
 

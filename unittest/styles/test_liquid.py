@@ -79,7 +79,8 @@ pair_style    liquid/sph {known["dr"]}
 pair_coeff    * *
 neighbor      0.05 bin
 fix           l water liquid/flow {known["Re"]} {known["Fr"]} ma {known["Ma"]} dtmax {known["dt"]:.17g} {wall} &
-              solver 1.0e-13 1000 shift published gravity published pressure v_p acceleration v_ax v_ay v_az
+              solver 1.0e-13 1000 shift published gravity published divergence published &
+              pressure v_p acceleration v_ax v_ay v_az
 fix           b gas bubble/flow {known["We"]} {known["beta"]:.17g} viscosity published
 compute       c water liquid/particle {" ".join(PARTICLE)}
 compute       d gas bubble/flow {" ".join(BUBBLE)}
