@@ -45,9 +45,13 @@ template <bool BY_ROWS> struct Matrix {
   }
   FOAM_FUNCTION double times(int i, const double *x) const
   {
-    double sum = x[i];
-    for (int m = 0; m < size[i]; m++) sum += value[at(i, m)] * x[column[at(i, m)]];
-    return sum;
+    double sum[4] = {x[i], 0.0, 0.0, 0.0};    // so that an addition need not wait for the one before
+    const int n = size[i];
+    int m = 0;
+    for (; m + 4 <= n; m += 4)
+      for (int k = 0; k < 4; k++) sum[k] += value[at(i, m + k)] * x[column[at(i, m + k)]];
+    for (; m < n; m++) sum[0] += value[at(i, m)] * x[column[at(i, m)]];
+    return (sum[0] + sum[1]) + (sum[2] + sum[3]);
   }
 };
 

@@ -178,6 +178,51 @@ run           1
     assert lost == pytest.approx(rows["c_power"][0], rel=5e-3)
 
 
+# ---- along walls --------------------------------------------------------------------------------
+
+CHANNEL = """
+units         lj
+atom_style    sphere 1
+boundary      p f f
+comm_modify   vel yes
+lattice       sc 512 origin 0.5 0.5 0.5
+region        box block 0 1 0 1 0 1 units box
+create_box    1 box
+create_atoms  1 box
+displace_atoms all random 0.0125 0.0125 0.0125 1 units box
+set           group all diameter 0.125 density $(6/PI)
+velocity      all set 1.0 0.0 0.0 units box
+pair_style    liquid/sph 0.125
+pair_coeff    * *
+neighbor      0.075 bin
+fix           l all liquid/flow 1.0e13 none les none {more} &
+              wall ylo noslip wall yhi noslip wall zlo noslip wall zhi noslip
+compute       p all liquid/particle p
+compute       most all reduce maxabs c_p vy vz
+variable      faster atom vx-1
+compute       change all reduce maxabs v_faster
+thermo_style  custom step f_l[5] c_most[*] c_change
+thermo_modify norm no format float %.17g
+thermo        1
+run           20
+"""
+
+
+def test_liquid_slides_along_walls(lmp):
+    """A channel that sticks, with particles in disorder that all have one velocity: without viscosity none changes
+    its. What viscosity is left takes some 4 / (Re dr^2) = 2.6e-11 in a unit of time, and there are 20 steps of 0.0325."""
+    rows = lmp(CHANNEL.format(more="")).thermo[0]
+    for what in "c_most[1]", "c_most[2]", "c_most[3]", "c_change":
+        assert rows[what][1:] == pytest.approx(0, abs=2e-11), what
+    assert rows["f_l[5]"] == pytest.approx(0.5, rel=4e-11)
+
+
+def test_liquid_that_sticks_to_walls_as_published(lmp):
+    """With images that are reversed the same liquid gets energy from nothing."""
+    rows = lmp(CHANNEL.format(more="divergence published")).thermo[0]
+    assert rows["f_l[5]"][-1] > 0.5002 and rows["c_change"][-1] > 5e-3
+
+
 # ---- at rest ------------------------------------------------------------------------------------
 
 TANK = """
