@@ -5,6 +5,7 @@ writes the snapshots that it is asked for."""
 import csv
 import os
 from pathlib import Path
+import re
 import subprocess
 import sys
 
@@ -34,6 +35,20 @@ def test_first_example_comes_to_its_end(tmp_path):
     assert "coarsening ended" in done.stdout and " nmin is 100" in done.stdout
     sizes = [len(frame) for frame in plot.read_dump(tmp_path / "foam.lammpstrj")]
     assert sizes == sorted(sizes, reverse=True) and 1000 > sizes[0] > sizes[-1] > 90
+
+
+def test_first_tank_and_its_picture(tmp_path):
+    """Bubbles rise past the water at the speed of one alone, since in these the drag law is the same. The water around
+    a bubble is known to some hundredths of that speed."""
+    done = subprocess.run([LMP, "-in", EXAMPLES / "first" / "in.stir"], cwd=tmp_path,
+                          capture_output=True, text=True, timeout=300)
+    assert done.returncode == 0 and "WARNING" not in done.stdout, done.stdout
+    drawn = subprocess.run([sys.executable, EXAMPLES / "first" / "plot.py"], cwd=tmp_path,
+                           capture_output=True, text=True, timeout=300)
+    assert drawn.returncode == 0, drawn.stderr
+    rise, alone = map(float, re.findall(r"[\d.]+\d", drawn.stdout))
+    assert rise == pytest.approx(alone, rel=0.05)
+    assert (tmp_path / "stir.png").stat().st_size > 0
 
 
 def test_every_example_is_in_the_lists():

@@ -209,8 +209,8 @@ run           20
 
 
 def test_liquid_slides_along_walls(lmp):
-    """A channel that sticks, with particles in disorder that all have one velocity: without viscosity none changes
-    its. What viscosity is left takes some 4 / (Re dr^2) = 2.6e-11 in a unit of time, and there are 20 steps of 0.0325."""
+    """A channel that sticks, with particles in disorder that all have one velocity: without viscosity it stays.
+    What viscosity is left takes some 4 / (Re dr^2) = 2.6e-11 in a unit of time, and there are 20 steps of 0.0325."""
     rows = lmp(CHANNEL.format(more="")).thermo[0]
     for what in "c_most[1]", "c_most[2]", "c_most[3]", "c_change":
         assert rows[what][1:] == pytest.approx(0, abs=2e-11), what
