@@ -139,7 +139,7 @@ def numbers(run: Run) -> dict[str, float]:
              "radius_over_dr": s["a"] / s["dr"], "bond": (s["rho"] - s["gas"]) * s["g"] * s["R"]**2 / s["sigma"],
              **dict(zip(("alone_speed", "alone_Re", "alone_We"), alone(s))), "axis_speed": on_axis(run),
              "on_their_way": float(np.mean((series["bubbles"] - series["layer"])[later])),
-             "bubbles": series["bubbles"][last[PLUME]], "given_mm3": mm3 * series["given"][last[PLUME]],
+             "bubbles": series["bubbles"][last[CALM]], "given_mm3": mm3 * series["given"][last[CALM]],
              "burst_mm3": mm3 * series["burst"][-1],
              "seen": series["seen"][last[CALM]] / max(series["gas"][last[CALM]], 1e-30),
              "kinetic": float(series["kinetic"].max()),

@@ -48,7 +48,7 @@ template <class Fields, class Rates, class Judge> struct Correct {
   double h;
   FOAM_FUNCTION void operator()(int i, typename Judge::Totals &all) const
   {
-    const double reach = y.reach(i);
+    const auto reach = y.reach(i);
     double f[Fields::MOST];
     rates(i, f);
     StepError error;
@@ -56,8 +56,7 @@ template <class Fields, class Rates, class Judge> struct Correct {
       const int n = field.number;
       const double corrected = correct(field.start(i), field.rate(i), f[n], h);
       if (keeps) next.field[n][i] = f[n];
-      error.add(field.measure(i, corrected - field.value(i)));
-      field.put(i, corrected);
+      error.add(field.move(i, corrected));
     });
     judge(i, error, reach, all);
   }

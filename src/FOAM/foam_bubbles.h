@@ -22,6 +22,7 @@
 
 namespace Foam {
 
+using LAMMPS_NS::FoamLength;
 using LAMMPS_NS::FoamMax;
 using LAMMPS_NS::FoamSum;
 

@@ -47,19 +47,30 @@ class FoamHost : protected Pointers {
     return columns.in_use() ? columns[c] : nullptr;
   }
 
-  template <class Functor> void for_all(int n, const Functor &functor) const
+  // A copy of a functor that no pointer leads to, in a loop with all that it calls: its members need not be read again
+  // after each number that is written.
+
+  template <class Functor> FOAM_FLAT void for_all(int n, const Functor &functor) const
   {
-    for (int i = 0; i < n; i++) functor(i);
+    const Functor own = functor;
+    for (int i = 0; i < n; i++) own(i);
   }
   template <class Functor> void for_each(int n, const Functor &functor) const
   {
     over_bubbles(n, functor);
   }
   template <class Totals, class Functor>
-  Totals totals(int n, const Functor &functor) const    // of this rank
+  FOAM_FLAT Totals totals(int n, const Functor &functor) const    // of this rank
   {
+    const Functor own = functor;
     Totals mine;
-    over_bubbles(n, [&](int i) { functor(i, mine); });
+    if (groupbit == Foam::GROUP_ALL) {
+      for (int i = 0; i < n; i++) own(i, mine);
+    } else {
+      const Foam::Members member = members(groupbit);
+      for (int i = 0; i < n; i++)
+        if (member(i)) own(i, mine);
+    }
     return mine;
   }
   template <class Totals, class Functor>

@@ -35,10 +35,12 @@
 #define FOAM_INLINE_LAMBDA __attribute__((always_inline))
 #define FOAM_ALWAYS_INLINE FOAM_INLINE_LAMBDA inline
 #define FOAM_RARELY_CALLED __attribute__((noinline))
+#define FOAM_FLAT          __attribute__((flatten))
 #else
 #define FOAM_INLINE_LAMBDA
 #define FOAM_ALWAYS_INLINE FOAM_FUNCTION
 #define FOAM_RARELY_CALLED FOAM_FUNCTION
+#define FOAM_FLAT
 #endif
 
 namespace Foam {

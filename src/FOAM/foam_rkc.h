@@ -59,8 +59,9 @@ template <class Fields, class Rates> struct NextStage {
 
   template <class Look> FOAM_FUNCTION void go_on(int i, Look &&look) const
   {
-    const double reach = y.reach(i);
-    if (reach > work.bubble[i]) work.bubble[i] = reach;
+    FoamMax furthest{work.bubble[i]};
+    furthest.raise(y.reach(i));
+    work.bubble[i] = furthest;
     double f[Fields::MOST];
     rates(i, f);
     y.each([&](const auto &field) {

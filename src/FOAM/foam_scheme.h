@@ -24,7 +24,7 @@
 //   y.keep_start(i)         the step starts at the present y;  y.rewind(i): at the one that is kept, again
 //   y.after_stage(i, f)     f are the rates of a stage, and the next one follows
 //   y.after_start(i)        the rates of the start have been evaluated anew
-//   y.reach(i)              how far bubble i is from where evaluations were prepared for
+//   y.reach(i)              how far bubble i is from where evaluations were prepared for: a number or a FoamLength
 //   y.alive(i), y.seed(i)   takes part; a number of its own, the same on any number of ranks
 //
 //   field.number            its place in arrays of MOST numbers
@@ -33,6 +33,7 @@
 //   field.rate(i), field.put_rate(i, value)    f_n
 //   field.before(i) = ...   f_{n-1}, for schemes with a history; a direction, for the spectral radius
 //   field.measure(i, d)     length of a change d of the present value
+//   field.move(i, value)    puts a value, and gives the length of the change
 //   field.unit()            change per unit of length
 //
 // rates(i, f) gives f of the state evaluated last, judge(i, error, reach, totals) adds a candidate to the totals

@@ -91,6 +91,12 @@ template <int D, class B> struct Fields : State<B> {
     FOAM_FUNCTION double rate(int i) const { return s.lag.v(s.b, i, number); }
     FOAM_FUNCTION void put_rate(int i, double v) const { s.lag.put_v(s.b, i, number, v); }
     FOAM_FUNCTION double &before(int i) const { return s.before[number][i]; }
+    FOAM_FUNCTION double move(int i, double x) const
+    {
+      const double before = value(i);
+      put(i, x);
+      return x - before;
+    }
     FOAM_FUNCTION double measure(int, double change) const { return change; }
     FOAM_FUNCTION double unit() const { return 1.0; }
   };
@@ -103,6 +109,12 @@ template <int D, class B> struct Fields : State<B> {
     FOAM_FUNCTION double rate(int i) const { return s.qdot[i]; }
     FOAM_FUNCTION void put_rate(int i, double qdot) const { s.qdot[i] = qdot; }
     FOAM_FUNCTION double &before(int i) const { return s.before[number][i]; }
+    FOAM_FUNCTION double move(int i, double q) const
+    {
+      const double before = s.b.radius(i);
+      put(i, q);
+      return s.b.radius(i) - before;
+    }
     FOAM_FUNCTION double measure(int i, double change) const
     {
       return radius_of<D>(s.variable, s.q[i] + change) - s.b.radius(i);
@@ -134,25 +146,25 @@ template <int D, class B> struct Fields : State<B> {
   {
     for (int k = 0; k < D; k++) this->lag.keep(this->b, i, k);
   }
-  FOAM_FUNCTION double reach(int i) const { return from_listed(i, this->b.radius(i)); }
+  FOAM_FUNCTION FoamLength reach(int i) const { return from_listed(i, this->b.radius(i)); }
   FOAM_FUNCTION bool alive(int i) const { return this->b.radius(i) > 0.0; }
   FOAM_FUNCTION double seed(int i) const { return this->b.tag(i); }
 
   // how far a bubble has moved and grown since the list was built
 
-  FOAM_FUNCTION double from_listed(int i, double R) const
+  FOAM_FUNCTION FoamLength from_listed(int i, double R) const
   {
     double square = 0.0;
     for (int k = 0; k < D; k++) {
       const double d = this->b.place(i, k) - this->place_listed(i, k, this->listed_now);
       square += d * d;
     }
-    return std::sqrt(square) + growth(R - this->radius_listed[i]);
+    return {square, growth(R - this->radius_listed[i])};
   }
 
   // the same in the next step, if it goes as far as this one
 
-  FOAM_FUNCTION double ahead(int i, double R, double R_start) const
+  FOAM_FUNCTION FoamLength ahead(int i, double R, double R_start) const
   {
     double square = 0.0;
     for (int k = 0; k < D; k++) {
@@ -160,7 +172,7 @@ template <int D, class B> struct Fields : State<B> {
                        this->place_listed(i, k, this->listed_ahead);
       square += d * d;
     }
-    return std::sqrt(square) + growth(2.0 * R - R_start - this->radius_listed[i]);
+    return {square, growth(2.0 * R - R_start - this->radius_listed[i])};
   }
 
  private:
@@ -199,7 +211,9 @@ template <int D, class B> struct Judge {
   Fields<D, B> s;
   double smallest;    // radius below which a bubble is removed
 
-  FOAM_FUNCTION void operator()(int i, const StepError &error, double reach, Judgement &all) const
+  template <class Reach>
+  FOAM_FUNCTION void operator()(int i, const StepError &error, const Reach &reach,
+                                Judgement &all) const
   {
     all.error.raise(error.largest);
     all.squares += error.squares;
@@ -207,10 +221,10 @@ template <int D, class B> struct Judge {
     const double R = s.b.radius(i), q = s.q[i], R_start = s.grows ? s.radius_start[i] : R;
     if (!(R_start > 0.0)) return;    // dead already
 
-    const double ahead = s.ahead(i, R, R_start);
+    const FoamLength ahead = s.ahead(i, R, R_start);
     all.ahead.raise(ahead);
     all.ahead.raise(s.from_listed(i, R));
-    if (!std::isfinite(ahead) || !std::isfinite(q)) all.bad += 1.0;
+    if (!ahead.finite() || !std::isfinite(q)) all.bad += 1.0;
 
     if (!s.counts) {    // nobody asks for their sums
       all.bubbles += 1.0;

@@ -49,6 +49,12 @@ struct TwoFields {
     void put_rate(int i, double f) const { own.rate[i] = f; }
     double &before(int i) const { return own.before[i]; }
     double measure(int, double change) const { return change / own.unit; }
+    double move(int i, double y) const
+    {
+      const double before = own.value[i];
+      own.value[i] = y;
+      return measure(i, y - before);
+    }
     double unit() const { return own.unit; }
   };
 
