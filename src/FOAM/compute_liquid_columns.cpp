@@ -69,9 +69,9 @@ void ComputeLiquidColumns::compute_peratom()
   for (int c = 0; c < width; c++) {
     FoamColumns &from = columns(wanted[c].place);
     const double *const column = from.in_use() ? from[wanted[c].column] : nullptr;
-    for (int i = 0; i < atom->nlocal; i++)
+    for (int i = 0; i < atom->nlocal; i++)    // some may have been created since
       out[static_cast<size_t>(i) * width + c] =
-          column && (atom->mask[i] & both) == both ? column[i] : 0.0;
+          column && i < from.rows() && (atom->mask[i] & both) == both ? column[i] : 0.0;
   }
 }
 

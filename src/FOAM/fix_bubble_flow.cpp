@@ -20,6 +20,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <vector>
 
 using namespace LAMMPS_NS;
@@ -146,6 +147,7 @@ void FixBubbleFlow::setup(int)    // some may have been due since the last run
 
 void FixBubbleFlow::initial_integrate(int)
 {
+  FixLiquidFlow::of(lmp)->begin_run();
   advance(update->dt);
 }
 
@@ -299,6 +301,13 @@ double FixBubbleFlow::compute_vector(int n)
         mine[n] += n == 0 ? 1.0 : Liquid::bubble_volume(atom->radius[i]);
   MPI_Allreduce(&mine[n], &all, 1, MPI_DOUBLE, MPI_SUM, world);
   return all;
+}
+
+void *FixBubbleFlow::extract(const char *name, int &dim)
+{
+  dim = 0;
+  if (std::strcmp(name, "type of bubbles") != 0) return nullptr;
+  return entrains ? &born_type : nullptr;
 }
 
 void FixBubbleFlow::write_restart(FILE *fp)

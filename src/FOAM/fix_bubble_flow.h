@@ -41,6 +41,7 @@ class FixBubbleFlow : public FixFoamTravelling {
   void write_restart(FILE *) override;
   void restart(char *) override;
   double compute_vector(int) override;
+  void *extract(const char *, int &) override;    // the type of bubbles that are born
 
   FoamColumns state{all_columns, "state of bubbles in a liquid", Liquid::BUBBLE_STATES, TRAVELS};
   FoamColumns work{all_columns, "columns of bubbles in a liquid", Liquid::AT_BUBBLES, STAYS};
@@ -117,8 +118,9 @@ void FixBubbleFlow::exchange_in(Space &space,
                   AddTurbulence<B>{liquid.b, at, liquid.set, of_this_step(turbulence_seed), dt});
   }
   ours.for_each(atom->nlocal, BubbleForces<B>{liquid.b, at, liquid.set, set});
-  events = BubbleTotals();
-  if (dt > 0.0) {
+  if (!(dt > 0.0)) {
+    events = ours.template totals<BubbleTotals>(atom->nlocal, SpeedOfBubbles<B>{liquid.b});
+  } else {
     ours.for_each(atom->nlocal, MoveBubbles<B>{liquid.b, at, liquid.set, set, dt});
     events = ours.template totals<BubbleTotals>(atom->nlocal,
                                                 AgeBubbles<B>{liquid.b, at, liquid.set, set, dt});

@@ -22,6 +22,7 @@
 #include "update.h"
 
 #include <cmath>
+#include <cstring>
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
@@ -78,6 +79,7 @@ void FixBubbleSparger::init()
   gas = FixBubbleFlow::of(lmp);
   if (!gas) error->all(FLERR, "Fix bubble/sparger needs fix bubble/flow");
   const PairLiquidSPH *const liquid = PairLiquidSPH::of(lmp);
+  if (liquid) most = liquid->dr;
   if (liquid && mean > liquid->dr)
     error->all(
         FLERR,
@@ -101,9 +103,9 @@ double FixBubbleSparger::radius(double number) const
 {
   if (!(sd > 0.0)) return mean;
   const Foam::Draws draws(seed, static_cast<std::uint64_t>(number));
-  for (unsigned n = 0; n < 2000; n += 2) {    // those that are smaller are drawn again
+  for (unsigned n = 0; n < 2000; n += 2) {    // those out of bounds are drawn again
     const double a = mean + sd * draws.normal(n + 4);
-    if (a >= least) return a;
+    if (a >= least && a <= most) return a;
   }
   return mean;
 }
@@ -138,6 +140,13 @@ void FixBubbleSparger::pre_exchange()
 double FixBubbleSparger::compute_vector(int n)
 {
   return n == 0 ? born : given;
+}
+
+void *FixBubbleSparger::extract(const char *name, int &dim)
+{
+  dim = 0;
+  if (std::strcmp(name, "type of bubbles") != 0) return nullptr;
+  return &type;
 }
 
 void FixBubbleSparger::write_restart(FILE *fp)

@@ -31,12 +31,14 @@ class FixBubbleSparger : public Fix {
   void pre_exchange() override;
   void end_of_step() override;
   double compute_vector(int) override;
+  void *extract(const char *, int &) override;    // the type of bubbles that are born
   void write_restart(FILE *) override;
   void restart(char *) override;
 
  private:
-  double place[3], disc, rate;                 // Q, volume in a unit of time
-  double mean = 0.0, sd = 0.0, least = 0.0;    // radii; sd 0: all are of the mean
+  double place[3], disc, rate;       // Q, volume in a unit of time
+  double mean = 0.0, sd = 0.0;       // radii; sd 0: all are of the mean
+  double least = 0.0, most = 0.0;    // others are drawn again
   int type = 2;
   bigint seed = 1;
   double born = 0.0, owed = 0.0, given = 0.0;    // bubbles; volumes

@@ -20,6 +20,7 @@
 #include "domain.h"
 #include "error.h"
 #include "modify.h"
+#include "neighbor.h"
 #include "output.h"
 #include "update.h"
 
@@ -29,7 +30,7 @@
 using namespace LAMMPS_NS;
 using namespace FixConst;
 
-static const std::vector<std::string> FACES{"xlo", "xhi", "ylo", "yhi", "zlo", "zhi"};
+const std::vector<std::string> FixLiquidFlow::FACES{"xlo", "xhi", "ylo", "yhi", "zlo", "zhi"};
 
 /* ----------------------------------------------------------------------
    fix ID group-ID liquid/flow RE FR keyword value ...
@@ -149,57 +150,6 @@ int FixLiquidFlow::setmask()
          PRE_FORCE;    // the last for set-up
 }
 
-void FixLiquidFlow::init()
-{
-  if (!atom->radius_flag || !atom->rmass_flag)
-    error->all(FLERR, "Fix liquid/flow needs atom_style sphere");
-  if (utils::strmatch(update->integrate_style, "^respa"))
-    error->all(FLERR, "Fix liquid/flow needs run_style verlet");
-  pair = PairLiquidSPH::of(lmp);
-  if (!pair) error->all(FLERR, "Fix liquid/flow needs pair_style liquid/sph");
-  if (of(lmp) != this) error->all(FLERR, "Fix liquid/flow: there can be one only");
-  gas = FixBubbleFlow::of(lmp);
-  pair->check_place("Fix liquid/flow", kokkosable, execution_space);
-  if (gas) pair->check_place("Fix bubble/flow", gas->kokkosable, gas->execution_space);
-  pair->liquidbit = groupbit;
-  pair->gasbit = gas ? gas->groupbit : 0;
-  set.dr = pair->dr;
-  set.h0 = pair->h0();
-  check_particles();
-  for (int k = 0; k < 3; k++)
-    for (int end = 0; end < 2; end++) {
-      walls.place[k][end] = end ? domain->boxhi[k] : domain->boxlo[k];
-      if (walls.kind[k][end] && domain->boundary[k][end] != 1)
-        error->all(
-            FLERR,
-            "Fix liquid/flow: face {} is no place for a wall: its boundary must be f, not {}",
-            FACES[2 * k + end], "pfsm"[domain->boundary[k][end]]);
-      if (domain->prd[k] < 2.0 * pair->reach())
-        error->all(FLERR, "Fix liquid/flow: the box is {} wide along {}: it must be {} at least",
-                   domain->prd[k], "xyz"[k], 2.0 * pair -> reach());
-    }
-  given_dt = update->dt;
-}
-
-// The operators take each particle for dr^3 of liquid; a bubble is none.
-
-void FixLiquidFlow::check_particles() const
-{
-  constexpr double DIGITS = 1.0e-4;    // of a data file
-  const double mass = set.volume_of_liquid();
-  for (int i = 0; i < atom->nlocal; i++) {
-    if (!(atom->mask[i] & groupbit)) continue;
-    if (gas && (atom->mask[i] & gas->groupbit))
-      error->one(FLERR, "Fix liquid/flow: particle {} is in the group of fix bubble/flow, too",
-                 atom->tag[i]);
-    if (!(std::fabs(atom->rmass[i] / mass - 1.0) <= DIGITS))
-      error->one(FLERR,
-                 "Fix liquid/flow: particle {} has mass {}: it must be that of the spacing, DR^3 = "
-                 "{} (set group ID diameter DR density $(6/PI))",
-                 atom->tag[i], atom->rmass[i], mass);
-  }
-}
-
 double FixLiquidFlow::froude() const
 {
   const double *g = set.gravity, square = g[0] * g[0] + g[1] * g[1] + g[2] * g[2];
@@ -232,12 +182,14 @@ void FixLiquidFlow::setup_pre_force(int)
 
 void FixLiquidFlow::setup(int)
 {
+  check_lists();
   next_reneighbor = update->ntimestep + 1;
   gather(0.0);
   look();
   const bool first = !(now.next_dt > 0.0);
-  if (first) now.next_dt = longest_step();
-  if (longest > 0.0) now.next_dt = std::min(now.next_dt, longest);    // of another run, perhaps
+  if (first) now.next_dt = longest_step(totals.nu);
+  now.next_dt =
+      std::min(now.next_dt, longest_step(0.0));    // what another run has left may be too long
   if (first && given.empty() && compute_vector(6) > 0.0) find_pressure();
   for (int tries = 1; !solve(now.next_dt); tries++)
     now.limit = now.next_dt = shorter(now.next_dt, tries);
@@ -258,7 +210,20 @@ void FixLiquidFlow::find_pressure()
 
 void FixLiquidFlow::initial_integrate(int)
 {
+  begin_run();
   advance(update->dt);
+}
+
+// Forces of other fixes are known since setup(); a run with "pre no" has none, and begins with the timestep of the user.  A step
+// that is a little too long goes on, as it does in one run.
+
+void FixLiquidFlow::begin_run()
+{
+  if (update->ntimestep != update->firststep + 1) return;
+  look();
+  const double limit = longest_step(0.0);
+  if (now.next_dt > 2.0 * limit) now.next_dt = limit;
+  if (update->dt > now.next_dt) foam_shorten_timestep(lmp, now.next_dt);
 }
 
 void FixLiquidFlow::final_integrate()
@@ -338,7 +303,7 @@ void FixLiquidFlow::end_of_step()
 double FixLiquidFlow::choose_step()
 {
   constexpr double GROWTH = 1.2;
-  const double step = longest_step();
+  const double step = longest_step(totals.nu);
   if (!(now.limit > 0.0)) return step;
   now.limit = GROWTH * now.done_dt;
   if (now.limit < step) return now.limit;
@@ -346,10 +311,15 @@ double FixLiquidFlow::choose_step()
   return step;
 }
 
-double FixLiquidFlow::longest_step()
+double FixLiquidFlow::longest_step(double nu)    // viscosity of this rank
 {
-  double mine[4] = {speeds.speed, totals.nu, totals.gas, gas ? gas->fastest() : 0.0}, all[4];
-  MPI_Allreduce(mine, all, 4, MPI_DOUBLE, MPI_MAX, world);
+  const double *g = set.gravity;
+  const double falls =
+      g[0] * g[0] + g[1] * g[1] + g[2] * g[2];    // also where there is no particle
+  double mine[] = {speeds.speed, nu, totals.gas, gas ? gas->fastest() : 0.0,
+                   std::max<double>(speeds.push, falls)};
+  double all[5];
+  MPI_Allreduce(mine, all, 5, MPI_DOUBLE, MPI_MAX, world);
   if (!told_of_gas && all[2] >= Liquid::MOST_GAS) {
     told_of_gas = true;
     if (comm->me == 0)
@@ -358,10 +328,8 @@ double FixLiquidFlow::longest_step()
                      "counted in the volume of the liquid",
                      update->ntimestep, Liquid::MOST_GAS);
   }
-  const double *g = set.gravity;
-  const double step =
-      Liquid::longest_step(set.h0, std::sqrt(all[0]), std::sqrt(all[3]), set.Re, all[1],
-                           std::sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]));
+  const double step = Liquid::longest_step(set.h0, std::sqrt(all[0]), std::sqrt(all[3]), set.Re,
+                                           all[1], std::sqrt(all[4]));
   return longest > 0.0 ? std::min(step, longest) : step;
 }
 

@@ -57,6 +57,7 @@ class FixLiquidFlow : public FixFoamTravelling {
   FoamColumns state{all_columns, "state of the liquid", STATE, TRAVELS};
   Liquid::Walls walls;
   double froude() const;    // 0: no gravity
+  void begin_run();         // in the first step, whichever fix comes first
   double last_step() const { return now.done_dt; }
   double entraining() const { return totals.entraining; }    // particles of this rank
   const Liquid::Setting &setting() const { return set; }
@@ -129,14 +130,17 @@ class FixLiquidFlow : public FixFoamTravelling {
   double level = 0.0;
   bool told_of_gas = false;
 
-  double longest_step();
+  double longest_step(double nu);
   double choose_step();
   void find_pressure();
   bool solve(double dt);
   double shorter(double dt, int tries) const;
   void stop(double dt) const;
   void begin_again(double dt);
+  static const std::vector<std::string> FACES;    // of the box
   void check_particles() const;
+  void check_others() const;
+  void check_lists() const;
 };
 
 }    // namespace LAMMPS_NS

@@ -14,7 +14,6 @@
 
 #include "atom.h"
 #include "comm.h"
-#include "error.h"
 #include "library.h"
 
 #include <algorithm>
@@ -66,12 +65,9 @@ void LiquidBirths::create(const std::vector<Newborn> &of_this_rank)
     atom->rmass[i] = density * Liquid::bubble_volume(its.radius);
     atom->mask[i] |= groupbit;
   }
-  const bigint lost = others + static_cast<bigint>(ids.size()) - atom->natoms;
-  atom->natoms += gone;
-  if (lost)
-    error->all(FLERR,
-               "{} of {} bubbles that were born lie outside of the box: the first at {} {} {}",
-               lost, ids.size(), x[0], x[1], x[2]);
+  // who is born beyond an open face is lost, as any atom that passes it
+
+  atom->natoms = others + gone + static_cast<bigint>(ids.size());
 }
 
 // Atoms that have left the box are not here.  LAMMPS finds out by its own number of all, so that only those that are

@@ -263,6 +263,17 @@ struct BubbleTotals {
   }
 };
 
+template <class B> struct SpeedOfBubbles {    // before the first step
+  static constexpr const char *NAME = "liquid: speed of bubbles";
+  B b;
+  FOAM_FUNCTION void operator()(int i, BubbleTotals &all) const
+  {
+    double speed = 0.0;
+    for (int k = 0; k < 3; k++) speed += b.v(i, k) * b.v(i, k);
+    all.speed.raise(speed);
+  }
+};
+
 // Bubbles as they were before a step, which may be repeated
 
 template <class B> struct KeepBubbles {
@@ -377,7 +388,8 @@ template <class B> struct MoveBubbles {
       double square = 0.0;
       for (int k = 0; k < 3; k++) square += at(NORMAL_B + k, i) * at(NORMAL_B + k, i);
       held = held_at_surface(nearness(std::sqrt(square), at(AROUND, i)));
-      for (int k = 0; k < 3; k++) normal[k] = at(NORMAL_B + k, i) / std::sqrt(square);
+      if (square > 0.0)    // else nothing is around it any more
+        for (int k = 0; k < 3; k++) normal[k] = at(NORMAL_B + k, i) / std::sqrt(square);
     }
     for (int n = 0; n < steps; n++) {
       const OnBubble on(b, at, set, gas, i, velocity);

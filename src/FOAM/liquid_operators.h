@@ -408,16 +408,25 @@ template <class B, class List, class Matrix> struct Assemble : Loop<B, List> {
 // Gradient of the pressure, and the end of the step: x = x_n + dt (u_n + u_{n+1}) / 2 + dt u_ps, from x* = x_n + dt u_n
 
 struct SpeedTotals {
-  Foam::FoamMax speed;    // squared
+  Foam::FoamMax speed, push;    // squared; push: acceleration by gravity and other forces
   Foam::FoamSum kinetic;
-  FOAM_FUNCTION void add(double square, double mass)
+  template <class B> FOAM_FUNCTION void add(const B &b, int i, const Setting &set)
   {
+    const double mass = set.volume_of_liquid();
+    double square = 0.0, pushed = 0.0;
+    for (int k = 0; k < 3; k++) {
+      const double u = b.v(i, k), a = set.gravity[k] + b.f(i, k) / mass;
+      square += u * u;
+      pushed += a * a;
+    }
     speed.raise(square);
+    push.raise(pushed);
     kinetic += 0.5 * mass * square;
   }
   FOAM_FUNCTION void join(const SpeedTotals &other)
   {
     speed.join(other.speed);
+    push.join(other.push);
     kinetic.join(other.kinetic);
   }
 };
@@ -426,12 +435,7 @@ template <class B> struct LookAtSpeeds {
   static constexpr const char *NAME = "liquid: speeds";
   B b;
   Setting set;
-  FOAM_FUNCTION void operator()(int i, SpeedTotals &all) const
-  {
-    double square = 0.0;
-    for (int k = 0; k < 3; k++) square += b.v(i, k) * b.v(i, k);
-    all.add(square, set.volume_of_liquid());
-  }
+  FOAM_FUNCTION void operator()(int i, SpeedTotals &all) const { all.add(b, i, set); }
 };
 
 template <class B, class List> struct Project : Loop<B, List> {
@@ -470,7 +474,6 @@ template <class B> struct Move {
   double level, dt;                                          // of p, which is kept without it
   FOAM_FUNCTION void operator()(int i, SpeedTotals &all) const
   {
-    double square = 0.0;
     for (int k = 0; k < 3; k++) {
       const double before = b.v(i, k), shift = set.shifts ? c(SHIFT + k, i) : 0.0;
       const double gradient = c(GRAD_P + k, i) / (set.published ? c(ALPHA, i) : 1.0);
@@ -480,12 +483,11 @@ template <class B> struct Move {
       walls.keep(k, x, u);
       b.put(i, k, x);
       b.v(i, k) = u;
-      square += u * u;
     }
     older[i] = pressure[i];
     pressure[i] = c(SOLUTION, i) - level;
     smoothing[i] = c(H, i);
-    all.add(square, set.volume_of_liquid());
+    all.add(b, i, set);
   }
 };
 

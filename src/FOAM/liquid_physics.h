@@ -187,12 +187,12 @@ FOAM_FUNCTION double dissipation(double Re, double nu_S, double S)
 inline constexpr double COURANT = 0.2, COURANT_OF_BUBBLES = 0.5;
 
 FOAM_FUNCTION double longest_step(double h, double speed, double of_bubbles, double Re, double nu,
-                                  double gravity)
+                                  double push)    // by gravity and other forces, an acceleration
 {
   double step = COURANT * Re * h * h / (1.0 + nu);
   if (speed > 0.0) step = std::fmin(step, COURANT * h / speed);
   if (of_bubbles > 0.0) step = std::fmin(step, COURANT_OF_BUBBLES * h / of_bubbles);
-  if (gravity > 0.0) step = std::fmin(step, COURANT * std::sqrt(h / gravity));
+  if (push > 0.0) step = std::fmin(step, COURANT * std::sqrt(h / push));
   return step;
 }
 

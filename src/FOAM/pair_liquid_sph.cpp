@@ -121,17 +121,37 @@ void PairLiquidSPH::request_list()
   neighbor->add_request(this, NeighConst::REQ_FULL);
 }
 
-// Types of which there is liquid.  Bubbles are many, and see none of each other: their rows would be longer than all others.
+// Types of which there may be liquid: all but those of bubbles alone, which are there or will be born.  Bubbles are many, and
+// see none of each other: their rows would be longer than all others.
 
 void PairLiquidSPH::find_wet_types()
 {
   const std::vector<Fix *> flows = modify->get_fix_by_style("^liquid/flow");
+  const std::vector<Fix *> gases = modify->get_fix_by_style("^bubble/flow");
   const int bit = flows.empty() ? 1 : flows[0]->groupbit;
-  std::vector<int> mine(atom->ntypes + 1, 0);
-  for (int i = 0; i < atom->nlocal; i++)
+  const int its = gases.empty() ? 0 : gases[0]->groupbit;
+  const int n = atom->ntypes + 1;
+  std::vector<int> mine(2 * n, 0), all(2 * n);    // liquid, and bubbles
+  for (int i = 0; i < atom->nlocal; i++) {
     if (atom->mask[i] & bit) mine[atom->type[i]] = 1;
-  wet.resize(mine.size());
-  MPI_Allreduce(mine.data(), wet.data(), static_cast<int>(mine.size()), MPI_INT, MPI_MAX, world);
+    if (atom->mask[i] & its) mine[n + atom->type[i]] = 1;
+  }
+  for (Fix *fix : modify->get_fix_by_style("^bubble/")) {
+    int dim;
+    const auto *const born = static_cast<const int *>(fix->extract("type of bubbles", dim));
+    if (born && *born < n) mine[n + *born] = 1;
+  }
+  MPI_Allreduce(mine.data(), all.data(), 2 * n, MPI_INT, MPI_MAX, world);
+  wet.resize(n);
+  for (int type = 0; type < n; type++) wet[type] = all[type] || !all[n + type];
+  for (int i = 1; i < n; i++)
+    for (int j = 1; j < n; j++)    // those of other styles are left to them
+      if (all[i] && (all[j] || all[n + j]) && !setflag[std::min(i, j)][std::max(i, j)])
+        error->all(
+            FLERR,
+            "Pair style liquid/sph: liquid of type {} does not see type {}: pair_coeff {} {} "
+            "is missing",
+            i, j, std::min(i, j), std::max(i, j));
 }
 
 double PairLiquidSPH::init_one(int i, int j)

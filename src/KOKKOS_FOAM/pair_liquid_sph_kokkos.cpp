@@ -11,6 +11,7 @@
 
 #include "foam_totals.h"
 
+#include "error.h"
 #include "neigh_list_kokkos.h"
 #include "neigh_request.h"
 #include "neighbor.h"
@@ -85,11 +86,11 @@ template <class DeviceType> struct CountPartners : Listed<DeviceType> {
 };
 
 template <class DeviceType> struct PlaceRows : Listed<DeviceType> {    // in place of their sizes
-  using value_type = int;
-  KOKKOS_INLINE_FUNCTION void operator()(int n, int &begin, bool final) const
+  using value_type = bigint;
+  KOKKOS_INLINE_FUNCTION void operator()(int n, bigint &begin, bool final) const
   {
     const int size = n < this->rows.count ? this->rows.first(n) : 0;
-    if (final) this->rows.first(n) = begin;
+    if (final) this->rows.first(n) = static_cast<int>(begin);
     begin += size;
   }
 };
@@ -159,10 +160,15 @@ void PairLiquidSPHKokkos<DeviceType>::make(LiquidRows<DeviceType> &rows, int of,
   Kokkos::parallel_scan("liquid: members", Range(0, atom->nlocal), ListMembers<DeviceType>{all()},
                         rows.count);
   space.for_all(rows.count, CountPartners<DeviceType>{all()});
-  int total = 0;
+  bigint total = 0;
   Kokkos::parallel_scan("liquid: place rows", Range(0, rows.count + 1),
                         PlaceRows<DeviceType>{all()}, total);
-  if (static_cast<int>(rows.partner.extent(0)) < total)
+  if (total > MAXSMALLINT)
+    error->one(FLERR,
+               "Pair style liquid/sph/kk: a rank has {} pairs of neighbors: more than {} are too "
+               "many, use more ranks",
+               total, MAXSMALLINT);
+  if (static_cast<bigint>(rows.partner.extent(0)) < total)
     rows.partner = Numbers(Kokkos::view_alloc("liquid/sph:partner", Kokkos::WithoutInitializing),
                            static_cast<size_t>(1.1 * total));
   if (DeviceType().concurrency() > 1)

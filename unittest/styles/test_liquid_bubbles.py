@@ -209,11 +209,70 @@ def test_buoyancy_counts_once(base_lmp, momentum, times):
     (dict(more="unfix l\n"), "needs fix liquid/flow"),
     (dict(more="fix b2 water bubble/flow 1 2\n"), "there can be one only"),
     (dict(width=0.4), "the box is 0.4 wide along x: it must be"),
+    (dict(more="fix g all gravity 1 vector 0 0 -1\n"), "walls do not hold what fix g pulls: gravity is FR"),
+    (dict(more="fix d all deform 1 x scale 1.1\n"), "fix d changes the box"),
+    (dict(more="pair_style hybrid liquid/sph 0.1 zero 0.3\npair_coeff 1 1 liquid/sph\npair_coeff * 2 zero\n",
+          create=one(0.4, 0.4, 0.5)), "liquid of type 1 does not see type 2: pair_coeff 1 2 is missing"),
 ])
 def test_bad_input(lmp, change, error):
     change = {"more": "", **change}
     result = lmp(tank(**{**change, "more": change["more"] + "run 2\n"}), check=False)
     assert result.returncode != 0 and any(re.search(error, line) for line in result.errors), result.errors
+
+
+@pytest.mark.parametrize("change, warning", [
+    ("neigh_modify exclude group water gas", "do not see those that neigh_modify excludes"),
+    ("neigh_modify every 20 check no", "lists may be too old")])
+def test_what_is_doubtful_is_said(lmp, change, warning):
+    result = lmp(tank(create=one(0.4, 0.4, 0.5), more=f"{change}\nrun 0\n"))
+    assert re.search(warning, result.screen), result.screen
+
+
+def test_radii_of_a_sparger_stay_below_the_spacing(lmp):
+    """Larger ones are drawn again, so that the next run need not refuse them."""
+    result = lmp(tank(more="""
+fix s gas bubble/sparger 0.4 0.4 0.3 0.1 0.5 normal 0.08 0.05 0.01
+variable a atom radius
+compute most gas reduce max v_a
+thermo_style custom step f_b[1] c_most
+thermo_modify norm no
+thermo 20
+run 20
+run 1
+"""))
+    table = result.thermo[0]
+    assert table["f_b[1]"][-1] > 30 and 0.09 < table["c_most"][-1] <= 0.1
+
+
+def test_liquid_of_a_type_that_was_not_there(lmp):
+    """Particles that are put into the box during a run see each other, whatever their type."""
+    heights = []
+    for kind in 1, 3:
+        text = tank(more=f"""
+region drops block 0.1 0.7 0.1 0.7 1.15 1.35 units box
+fix rain water deposit 40 {kind} 1 771 region drops near 0.09 units box
+dump d water custom 80 dump id z
+dump_modify d sort id
+run 80
+""").replace("create_box    2", "create_box    3")
+        heights.append(lmp(text).dump("dump")[-1]["z"])
+    assert len(heights[0]) == 640 + 40
+    assert heights[1] == pytest.approx(heights[0], abs=1e-5)
+
+
+def test_births_beyond_an_open_face(base_lmp):
+    """A liquid flows out of an open face. Of the bubbles that its surface entrains there, and of those that break, some
+    begin beyond it: they are lost as other atoms are there, which LAMMPS was told to ignore. (With KOKKOS and one rank
+    LAMMPS loses none: its exchange between ranks is then left out.)"""
+    text = tank(create=one(0.31, 0.29, 0.22), Re=1e4, We=1.4e4, dt=1.0, gas="entrain 2 breakup 4", more="""
+thermo_style custom step time f_b[1] f_b[3] f_b[6] atoms
+thermo_modify norm no lost ignore
+thermo 10
+run 150
+""").replace("boundary      p p f", "boundary      f p f").replace("wall zlo slip", "wall zlo noslip wall xlo slip")
+    table = base_lmp(text.replace("les none", "")).thermo[0]
+    assert table["f_b[3]"][-1] > 100
+    assert (table["Atoms"] >= table["f_b[1]"]).all() and table["Atoms"][-1] < 200
 
 
 def test_parts_stay_between_walls(lmp):

@@ -133,8 +133,40 @@ run 20
     assert speeds[0] == pytest.approx(speeds[1], rel=0, abs=1e-4 * np.abs(speeds[1]).max())
 
 
+LIMITS = """
+compute fast water reduce maxabs vx vy vz
+thermo_style custom step dt time f_l[2] c_fast[*] atoms
+thermo_modify norm no format float %.17g
+thermo 1
+"""
+H = 1.3 / 10    # of tank()
+
+
+def test_another_run_may_need_shorter_steps(lmp):
+    """What a run has left is not the step of the next one, if velocities have been set in between."""
+    result = lmp(tank(dt=1.0, more=LIMITS + "run 2\nvelocity water set 3 0 0 units box\nrun 2\n"))
+    first, second = result.thermo
+    assert first["f_l[2]"][-1] > 0.05
+    assert second["f_l[2]"][0] == pytest.approx(0.2 * H / 3, rel=1e-12)
+
+
+def test_a_run_without_set_up_has_the_step_that_is_due(lmp):
+    """run N pre no begins with the timestep of the user, who may not think of it."""
+    result = lmp(tank(velocity=DRIFT, dt=1.0, more=LIMITS + "timestep 5.0\nrun 3\nrun 3 pre no\n"))
+    first, second = result.thermo
+    due = first["f_l[2]"][-1]
+    assert second["Time"][1] - second["Time"][0] == pytest.approx(due, rel=1e-12)
+
+
+def test_forces_shorten_steps(lmp):
+    """As gravity does: nothing goes further than 0.2 h from rest."""
+    text = tank(dt=100.0, more=LIMITS + f"fix push water addforce {40 * 0.1**3} 0 0\nrun 3\n")
+    table = lmp(text.replace("liquid/flow 1000 1.0", "liquid/flow 1000 none")).thermo[0]
+    assert table["Time"][1] == pytest.approx(0.2 * np.sqrt(H / 40), rel=1e-12)
+
+
 def test_fast_bubbles_shorten_steps(lmp):
-    """None goes further than h/2 in a step."""
+    """None goes further than h/2 in a step, the first included."""
     h = 1.3 / 10
     table = lmp(tank(create=one(0.41, 0.37, 0.5), velocity="velocity gas set 0 0 2 units box", dt=1.0,
                      gas="surface no drag no", more="""
@@ -144,7 +176,7 @@ thermo_modify norm no format float %.17g
 thermo 1
 run 3
 """)).thermo[0]
-    assert (table["f_l[2]"][1:] <= 0.5 * h / table["c_speed"][1:] * (1 + 1e-12)).all()
+    assert (table["f_l[2]"] <= 0.5 * h / table["c_speed"] * (1 + 1e-12)).all()
 
 
 def test_forces_on_bubbles(lmp):
