@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """What a step of a resolved liquid costs on one core, and which share of it the pressure has.
 
-    liquid.py --lmp "COMMAND" [--sizes 12,16,24,32,48] [--repeat 3] [--steps 10] [--out DIR]     TIME
+    liquid.py --lmp "COMMAND" [--sizes 12,16,24,32,48] [--repeat 3] [--steps 10] [--out DIR]     ten minutes
+    liquid.py --lmp "COMMAND" --sizes 12 --repeat 1 --no-count                                   seconds
 
 A periodic cube of n^3 particles, with the velocities of examples/liquid/in.turbulence at Re 1e6.  Nothing but the
 solver's tolerance changes, and with it the number of iterations.  Time per particle and step is then a straight line:

@@ -149,8 +149,8 @@ def draw_front(out: Path, rows: Rows, n: int, potential: Series) -> None:
         some = [row for row in of_sizes(rows) if row["method"] == method]
         middle.plot([row["seconds"] for row in some], [row["error"] for row in some], style, label=TITLES[method])
         for row in some:
-            middle.annotate(str(row["n"]), (row["seconds"], row["error"]), (3, 3), textcoords="offset points",
-                            fontsize=6)
+            middle.annotate(str(row["n"]), (row["seconds"], row["error"]), (6, -2) if method == "rheo" else (3, 3),
+                            textcoords="offset points", fontsize=6)
     middle.set(xlabel="seconds of CPU", ylabel="error of the front / a", xscale="log", yscale="log")
     middle.margins(0.12)
     middle.legend()

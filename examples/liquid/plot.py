@@ -27,6 +27,7 @@ from written import Rows, complete, cost, folder, is_complete, read_table, repor
 
 LINES = {"lattice": "--", "wide-0.001": ":"}
 SETTLED = 0.1        # errors of vortices are those from then on
+COLOURS = 7          # that a figure has
 
 
 # ---------------------------------------------------------------- vortices
@@ -96,15 +97,14 @@ def draw_vortex(out: Path) -> None:
 
 def tank_row(name: str, path: Path) -> dict[str, Any]:
     series = read_table(path / "tank.csv")
-    steps, seconds = cost(path / "log.liquid")
     frame = next(iter(read_frames(path / "tank.lammpstrj")))
     slope, head = np.polyfit(frame["z"], frame["p"], 1)
     late = series["step"] >= 0.5 * series["step"][-1]
-    return {"run": name, "n": int(settings(path, "in.tank")["n"]), "steps": steps, "time": series["time"][-1],
+    return {"run": name, "n": int(settings(path, "in.tank")["n"]), "steps": int(series["step"][-1]),
+            "time": series["time"][-1],
             "rms": float(series["rms"][late].mean()), "fastest": float(series["fastest"][late].max()),
             "top": series["top"][-1] - series["top"][0], "mean": series["mean"][-1] - series["mean"][0],
-            "slope": slope, "uneven": series["uneven"][-1], "iterations": float(series["iterations"][late].mean()),
-            "ms of a step": 1e3 * seconds / steps}
+            "slope": slope, "uneven": series["uneven"][-1], "iterations": float(series["iterations"][late].mean())}
 
 
 def draw_tank(out: Path) -> None:
@@ -112,11 +112,12 @@ def draw_tank(out: Path) -> None:
     paths = {name: path for name, path in paths.items() if is_complete(path)}
     report([tank_row(name, path) for name, path in paths.items()], out / "tank.csv")
     fig, (left, middle, right) = figure.panels(1, 3, width=2.5, height=2.9)
-    for name, path in paths.items():
+    for k, (name, path) in enumerate(paths.items()):
         series = read_table(path / "tank.csv")
-        line = left.plot(series["step"][1:], np.maximum(series["rms"][1:], 1e-10), label=name)[0]
-        middle.plot(series["step"], series["mean"] - series["mean"][0], color=line.get_color())
-        if "published" not in name:
+        look = "-" if k < COLOURS else "--"
+        line = left.plot(series["step"][1:], np.maximum(series["rms"][1:], 1e-10), look, label=name)[0]
+        middle.plot(series["step"], series["mean"] - series["mean"][0], look, color=line.get_color())
+        if "published" not in name and "tol" not in name:
             frame = next(iter(read_frames(path / "tank.lammpstrj")))
             right.plot(frame["p"], frame["p"] + frame["z"] - series["top"][-1], ".", ms=2, color=line.get_color())
     left.set(xlabel="step", ylabel="root mean square of velocities", yscale="log", xscale="log", ylim=(1e-10, 1))

@@ -39,7 +39,7 @@ def draw_flow(ax: Axes, sizes: Rows, others: dict[str, dict[str, Any]], title: s
                 ax.annotate(name, (some[name]["seconds"], some[name]["error"]), (4, 3), textcoords="offset points",
                             fontsize=6, color=colour)
     ax.set(xlabel="seconds of CPU", ylabel="error", xscale="log", yscale="log", title=title)
-    ax.margins(0.13)
+    ax.margins(0.2, 0.13)
     figure.plain_ticks(ax)
     ax.legend(fontsize=6)
 

@@ -2,8 +2,8 @@
 """What a liquid alone has to show: flows whose laws are known, turbulence, a tank at rest, a dam break beside that of
 LAMMPS' own SPH, what precision costs; figures by plot.py.
 
-    python3 run.py --lmp lmp --out DIR                        TIME on one core
-    python3 run.py --lmp lmp --out DIR --full                 finer ones too: FULLTIME
+    python3 run.py --lmp lmp --out DIR                        a quarter of an hour on one core
+    python3 run.py --lmp lmp --out DIR --full                 finer ones too: an hour
     python3 run.py --lmp lmp --out DIR --only vortex tank     some of them
 
 A run that is complete is not done again, so that this can be stopped and started; --dry-run lists the runs. Times are
@@ -28,7 +28,7 @@ HERE = Path(__file__).resolve().parent
 GROUPS = ("vortex", "beltrami", "turbulence", "bubble", "tank", "dambreak", "pairs", "precision", "iterations")
 LIMITED = "1.0"                                        # longest step: what the flow allows
 CLOSURES = {"none": "none", "mixed": "mixed 0.06", "smagorinsky": "smagorinsky 0.1"}
-PUSHED = {"force": "1.0", "push": "6", "T": "8"}       # pushed until 6, then left alone
+PUSHED = {"force": "1.0", "push": "4", "T": "6"}       # pushed until 4, then left alone
 RADII = ("0.1", "0.2", "0.4")                          # of a bubble, over the spacing
 PLACES = (("0.1", "0.2", "0.3"), ("0.0", "0.0", "0.0"), ("0.5", "0.5", "0.5"), ("0.4", "0.1", "0.25"))
 VORTICES: dict[str, dict[str, str]] = {                # what differs from in.vortex with steps below 0.004
@@ -45,6 +45,7 @@ TANKS: dict[str, dict[str, str]] = {
     "Re 1e4 mixed": {},
     "gravity published": {"les": "none", "gravity": "published", "shift": "published", "steps": "2000"},
     "shift published": {"les": "none", "shift": "published"},
+    "divergence published": {"les": "none", "divergence": "published"},
     "tol 1e-3": {"tol": "1.0e-3", "steps": "2000"},
 }
 FINE_TANKS: dict[str, dict[str, str]] = {
@@ -120,7 +121,7 @@ class Run:
 def sizes(group: str, full: bool) -> list[int]:
     """Particles along a unit of length."""
     few, more = {"vortex": ([12, 16, 24], [32, 48]), "beltrami": ([8, 12, 16, 24], [32, 48]),
-                 "turbulence": ([24], [32]), "dambreak": ([8, 12, 16, 24], [32, 48]),
+                 "turbulence": ([24], [32]), "pushed": ([24], [32]), "dambreak": ([8, 12, 16, 24], [32, 48]),
                  "rheo": ([8, 12, 16], [24]), "pairs": ([8, 16], [24]),
                  "iterations": ([8, 12, 16, 24], [32, 48, 64])}[group]
     return few + more if full else few
@@ -146,8 +147,9 @@ def runs_of_vortices(groups: list[str], full: bool) -> Iterator[Run]:
             for name in CLOSURES if n == 24 else ("none", "mixed"):
                 yield Run(f"turbulence/{n}-{name}", "in.turbulence",
                           tuple({"n": str(n), **high, "les": CLOSURES[name], "T": "4"}.items()))
-        yield Run("turbulence/pushed-mixed", "in.turbulence",
-                  tuple({"n": "24", **high, "les": CLOSURES["mixed"], **PUSHED}.items()))
+        for n in sizes("pushed", full):
+            yield Run(f"turbulence/pushed-{n}", "in.turbulence",
+                      tuple({"n": str(n), **high, "les": CLOSURES["mixed"], **PUSHED}.items()))
 
 
 def runs_of_columns(groups: list[str], full: bool) -> Iterator[Run]:

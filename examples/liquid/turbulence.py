@@ -11,10 +11,11 @@ from lammps_foam.analysis.read import Frame, read_frames
 
 from run import CLOSURES, LIMITED, PUSHED
 from spectrum import arrays, interpolated, spectrum
-from written import Array, Rows, complete, cost, read_table, report, settings
+from written import Array, Rows, Series, complete, cost, read_table, report, settings
 
 SETTLED = 0.05       # errors of decays are those from then on
 BROKEN_UP = 4.0      # time of spectra: the flow has lost its first shape
+SETTLED_PUSH = 0.75  # of the time of a push: its mean energy is that from then on
 SHOWN = 72           # points along an edge of a picture
 FIRST_SHELL = 2      # that of the Beltrami flow, |k| = sqrt(3)
 
@@ -75,13 +76,17 @@ def slope(k: Array, energy: Array, last: float) -> float:
     return float(np.polyfit(np.log(k[some]), np.log(energy[some]), 1)[0])
 
 
+def spent(series: Series) -> Array:
+    """By viscosity and closure, from the start on; energy was 1/2 then."""
+    rate, dt = series["dissipated"], np.diff(series["time"])
+    return 2 * np.concatenate(([0.0], np.cumsum(0.5 * (rate[1:] + rate[:-1]) * dt)))
+
+
 def turbulence_row(path: Path) -> dict[str, Any]:
     s, series = settings(path, "in.turbulence"), read_table(path / "turbulence.csv")
     steps, seconds = cost(path / "log.liquid")
     t, energy = series["time"], series["energy"]
     last = len(t) - 1
-    spent = 2 * np.concatenate(([0.0], np.cumsum(0.5 * (series["dissipated"][1:] + series["dissipated"][:-1])
-                                                 * np.diff(t))))                # energy was 1/2 at the start
     k, E = spectrum(frame_near(path, BROKEN_UP))
     row = {"run": path.name, "n": int(s["n"]), "steps": steps, "seconds": seconds,
            "half at": float(np.interp(0.5, energy[::-1], t[::-1])) if energy.min() < 0.5 else np.nan}
@@ -89,22 +94,27 @@ def turbulence_row(path: Path) -> dict[str, Any]:
         row[f"energy at {time:g}"] = float(np.interp(time, t, energy))
     early = t <= 0.5
     row["loss before 0.5"] = float(-np.polyfit(t[early], energy[early], 1)[0])
-    row["share of closure"] = spent[last] / (energy[0] - energy[last])
+    row["share of closure"] = float(spent(series)[last]) / (energy[0] - energy[last])
     row["slope"] = slope(k, E, row["n"] / 3)
     row["iterations"] = float(series["iterations"].mean())
     return row
 
 
 def pushed_row(path: Path) -> dict[str, Any]:
-    series = read_table(path / "turbulence.csv")
-    t, energy, until = series["time"], series["energy"], float(PUSHED["push"])
-    steady = (t > 0.5 * until) & (t < until)
+    """Energies over that of the start; the loss is that after the push."""
+    s, series = settings(path, "in.turbulence"), read_table(path / "turbulence.csv")
+    steps, seconds = cost(path / "log.liquid")
+    t, energy, until = series["time"], series["energy"], s["push"]
+    before, after = t < until, t >= until
+    late = before & (t >= SETTLED_PUSH * until)
     k, E = spectrum(frame_near(path, until))
-    later = (t > until + 1.0)
-    return {"run": path.name, "steps": cost(path / "log.liquid")[0], "steady": float(energy[steady].mean()),
-            "at 8": float(np.interp(8.0, t, energy)), "at 12": float(energy[-1]),
-            "decay": float(np.polyfit(np.log(t[later] - until), np.log(energy[later]), 1)[0]),
-            "slope": slope(k, E, round(len(k) * 2 / 3))}
+    left = energy / energy[after][0]
+    return {"n": int(s["n"]), "steps": steps, "seconds": seconds, "most": float(energy.max()),
+            "at": float(t[energy.argmax()]), "mean from 3 to 4": float(energy[late].mean()),
+            "half after": float(np.interp(0.5, left[after][::-1], t[after][::-1])) - until,
+            "energy at 6": float(np.interp(6.0, t, energy)),
+            "share of closure": float(spent(series)[-1] - spent(series)[after][0]) / (energy[after][0] - energy[-1]),
+            "slope": slope(k, E, s["n"] / 3), "iterations": float(series["iterations"].mean())}
 
 
 def draw_slices(out: Path, paths: list[Path]) -> None:
@@ -144,22 +154,28 @@ def draw_turbulence(out: Path) -> None:
         k, energy = spectrum(frame_near(path, BROKEN_UP))
         right.plot(k, energy / energy.sum(), styles.get(int(n), "-."), color=colours[closure])
     for path in pushed:
-        closure = path.name.split("-", 1)[1]
+        n = int(path.name.split("-")[1])
         series = read_table(path / "turbulence.csv")
-        middle.plot(series["time"], series["energy"], color=colours[closure], label=closure)
+        middle.plot(series["time"], series["energy"], styles.get(n, "-."), color=colours["mixed"],
+                    label=f"mixed, n = {n}")
+    middle.axvline(float(PUSHED["push"]), color="0.6", lw=0.7)
     k = np.array([2.0, 16.0])
     right.plot(k, 0.9 * (k / k[0])**(-5 / 3), ":", color="0.5", label="$k^{-5/3}$")
-    left.set(xlabel="time", ylabel="kinetic energy / that of the start", yscale="log")
-    middle.set(xlabel="time", ylabel="kinetic energy", yscale="log", title=f"pushed until t = {PUSHED['push']}")
+    left.set(xlabel="time", ylabel="energy / that of the start", yscale="log")
+    middle.set(xlabel="time", ylabel="energy / that of the start", yscale="log",
+               title=f"pushed until t = {PUSHED['push']}")
     right.set(xlabel="wave number", ylabel="energy of a shell / all", title=f"t = {BROKEN_UP:g}", xscale="log",
               yscale="log")
+    figure.plain_ticks(middle, "y")
     figure.plain_ticks(right, "x")
     for ax in (left, middle, right):
         if ax.lines:
             ax.legend(fontsize=6)
     figure.save(fig, out / "turbulence")
-    largest = max(int(path.name.split("-")[0]) for path in free)
-    draw_slices(out, [path for path in free if path.name in (f"{largest}-none", f"{largest}-mixed")])
+    named = {path.name: path for path in free}
+    both = [n for n in styles if {f"{n}-none", f"{n}-mixed"} <= set(named)]
+    if both:
+        draw_slices(out, [named[f"{max(both)}-{closure}"] for closure in ("mixed", "none")])
 
 
 # ---------------------------------------------------------------- a bubble that is put in

@@ -133,17 +133,19 @@ def summary(wave: Wave) -> dict[str, Any]:
 # ---------------------------------------------------------------- figures
 
 def draw_frame(frame: Frame, ax: Axes, what: str, n: int) -> Any:
-    """A layer in the middle of the width, and all bubbles."""
-    liquid = frame["type"] == 1
-    mine = liquid & (abs(frame["y"] - frame.box.lengths[1] / 2) < 0.6 / n)
+    """A layer of liquid in the middle of the width; with its vorticity, bubbles of a tenth of the width, to scale."""
+    liquid, off = frame["type"] == 1, abs(frame["y"] - frame.box.lengths[1] / 2) / frame.box.lengths[1]
+    mine = liquid & (off < 0.6 / n / frame.box.lengths[1])
     if what == "curl":
         values, style = frame["curl"], {"cmap": "RdBu", "vmin": -10, "vmax": 10}
     else:
         values, style = np.hypot(frame["vx"], frame["vz"]), {"cmap": "viridis", "vmin": 0, "vmax": 0.7}
     drawn = ax.scatter(frame["x"][mine], frame["z"][mine], c=values[mine], s=(160 / n)**2, marker="s", lw=0,
                        rasterized=True, **style)
-    ax.scatter(frame["x"][~liquid], frame["z"][~liquid], s=5e5 * frame["radius"][~liquid]**2, facecolors="none",
-               edgecolors="#D55E00", linewidths=0.3, rasterized=True)
+    if what == "curl":
+        few = ~liquid & (off < 0.05)
+        size = 2 * frame["radius"][few] * 72 * ax.bbox.width / ax.figure.dpi      # points, of an axis that is 1 long
+        ax.scatter(frame["x"][few], frame["z"][few], s=np.maximum(size, 0.5)**2, color="#009E73", lw=0, rasterized=True)
     ax.set(xlim=(0, 1), ylim=(0.15, 0.75), aspect="equal")
     ax.minorticks_off()
     return drawn
@@ -169,7 +171,7 @@ def draw_film(directory: Path, out: Path, n: int) -> None:
 
     def draw(frame: Frame) -> None:
         ax.clear()
-        draw_frame(frame, ax, "speed", n)
+        draw_frame(frame, ax, "curl", n)
         ax.set(title=f"t = {frame.time:4.2f}, {np.count_nonzero(frame['type'] == 2)} bubbles")
 
     every = (frame for number, frame in enumerate(frames_of(directory / DUMP)) if number % 2 == 0)
