@@ -113,6 +113,7 @@ class FixLiquidFlow : public FixFoamTravelling {
     std::vector<int> columns, sizes;
     Liquid::Matrix<true> matrix(size_t rows, size_t width);
   } room;
+  int row_width = 96;                                // of the matrix: as much as was needed so far
   std::vector<std::pair<int, std::string>> given;    // variables with the state of the start
 
   double tolerance = 1.0e-6, longest = 0.0, given_dt = 0.0;

@@ -136,13 +136,21 @@ void FixLiquidFlow::project_in(Space &space, const Rows &near, Room &room, doubl
   space.for_all(nrows, Predict<B, List>{loop, space.column(state, SMOOTHING), dt});
   send(work, STAR, 3);
 
-  const auto matrix = room.matrix(atom->nlocal, near.widest());
-  using M = std::remove_const_t<decltype(matrix)>;
+  auto matrix = room.matrix(atom->nlocal, row_width);
+  using M = decltype(matrix);
   const double *const before = space.column(state, PRESSURE);
   double *const pressure = space.column(work, SOLUTION);
   space.for_all(atom->nlocal, Extrapolate{before, space.column(state, OLDER), pressure,
                                           now.done_dt > 0.0 ? dt / now.done_dt : 0.0});
-  space.for_all(nrows, Assemble<B, List, M>{loop, matrix, before, space.column(vectors, 0), dt});
+  for (;;) {
+    space.for_all(nrows, Assemble<B, List, M>{loop, matrix, before, space.column(vectors, 0), dt});
+    const Foam::FoamMax all =
+        space.template totals<Foam::FoamMax>(atom->nlocal, LongestRow{matrix.size});
+    const int longest = static_cast<int>(all);
+    if (longest <= row_width) break;
+    row_width = longest + longest / 8;
+    matrix = room.matrix(atom->nlocal, row_width);
+  }
   solved = solve_in(space, matrix);
   level = 0.0;
   if (without_level) {

@@ -200,14 +200,6 @@ FoamHalfList<true> PairLiquidSPH::rows(Kind kind) const
   return {lists[kind].of.data(), near.numneigh.data(), near.firstneigh.data(), atom->nlocal};
 }
 
-int PairLiquidSPH::widest() const
-{
-  const FoamHalfList<true> all = rows(LIQUID);
-  int most = 0;
-  for (int n = 0; n < nrows(LIQUID); n++) most = std::max(most, all.row(n).size);
-  return most;
-}
-
 /* ----------------------------------------------------------------------
    restart and data files
 ------------------------------------------------------------------------- */

@@ -54,7 +54,6 @@ class PairLiquidSPH : public Pair {
   int liquidbit = 1, gasbit = 0;    // of groups; none: no bubbles
   int nrows(Kind) const;
   FoamHalfList<true> rows(Kind) const;
-  int widest() const;    // row of the first kind, without images
   void check_place(const char *style, int kokkosable, int execution_space) const;    // or an error
 
  protected:

@@ -9,7 +9,6 @@
 
 #include "pair_liquid_sph_kokkos.h"
 
-#include "foam_totals.h"
 
 #include "error.h"
 #include "neigh_list_kokkos.h"
@@ -121,20 +120,6 @@ template <class DeviceType, bool SORTED> struct FillRows : Listed<DeviceType> {
   }
 };
 
-struct Widest {
-  FoamMax size;
-  FOAM_FUNCTION void join(const Widest &other) { size.join(other.size); }
-};
-
-template <class DeviceType> struct LookAtRows {
-  static constexpr const char *NAME = "liquid: widest row";
-  LiquidRows<DeviceType> rows;
-  KOKKOS_INLINE_FUNCTION void operator()(int n, Widest &all) const
-  {
-    all.size.raise(rows.first(n + 1) - rows.first(n));
-  }
-};
-
 }    // namespace
 
 template <class DeviceType>
@@ -185,9 +170,6 @@ template <class DeviceType> void PairLiquidSPHKokkos<DeviceType>::take_lists()
     make(lists[BUBBLES_OF_LIQUID], liquidbit, gasbit);
     make(lists[LIQUID_OF_BUBBLES], gasbit, liquidbit);
   }
-  widest_row = static_cast<int>(
-      space.template totals<Widest>(lists[LIQUID].count, LookAtRows<DeviceType>{lists[LIQUID]})
-          .size);
 }
 
 template <class DeviceType> double PairLiquidSPHKokkos<DeviceType>::memory_usage()

@@ -55,7 +55,6 @@ template <class DeviceType> class PairLiquidSPHKokkos : public PairLiquidSPH {
 
   const LiquidRows<DeviceType> &rows(Kind kind) const { return lists[kind]; }
   int nrows(Kind kind) const { return lists[kind].count; }
-  int widest() const { return widest_row; }
 
  protected:
   void request_list() override;
@@ -64,7 +63,6 @@ template <class DeviceType> class PairLiquidSPHKokkos : public PairLiquidSPH {
  private:
   FoamKokkos<DeviceType> space;
   LiquidRows<DeviceType> lists[KINDS];
-  int widest_row = 0;    // of the first kind
 
   void make(LiquidRows<DeviceType> &, int of, int with);
 };
