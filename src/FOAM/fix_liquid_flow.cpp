@@ -20,7 +20,6 @@
 #include "domain.h"
 #include "error.h"
 #include "modify.h"
-#include "neighbor.h"
 #include "output.h"
 #include "update.h"
 
@@ -188,8 +187,7 @@ void FixLiquidFlow::setup(int)
   look();
   const bool first = !(now.next_dt > 0.0);
   if (first) now.next_dt = longest_step(totals.nu);
-  now.next_dt =
-      std::min(now.next_dt, longest_step(0.0));    // what another run has left may be too long
+  limit_step();
   if (first && given.empty() && compute_vector(6) > 0.0) find_pressure();
   for (int tries = 1; !solve(now.next_dt); tries++)
     now.limit = now.next_dt = shorter(now.next_dt, tries);
@@ -214,15 +212,23 @@ void FixLiquidFlow::initial_integrate(int)
   advance(update->dt);
 }
 
-// Forces of other fixes are known since setup(); a run with "pre no" has none, and begins with the timestep of the user.  A step
-// that is a little too long goes on, as it does in one run.
+// What another run has left may be far too long by now.  A step that is a little too long goes on, as it does in one run: so runs
+// from restart files, too, which know the forces of other fixes at places a little further on.
+
+void FixLiquidFlow::limit_step()
+{
+  const double limit = longest_step(0.0);
+  if (now.next_dt > 2.0 * limit) now.next_dt = limit;
+  if (longest > 0.0) now.next_dt = std::min(now.next_dt, longest);
+}
+
+// Forces of other fixes are known since setup(); a run with "pre no" has none, and begins with the timestep of the user
 
 void FixLiquidFlow::begin_run()
 {
   if (update->ntimestep != update->firststep + 1) return;
   look();
-  const double limit = longest_step(0.0);
-  if (now.next_dt > 2.0 * limit) now.next_dt = limit;
+  limit_step();
   if (update->dt > now.next_dt) foam_shorten_timestep(lmp, now.next_dt);
 }
 

@@ -132,6 +132,7 @@ class FixLiquidFlow : public FixFoamTravelling {
   bool told_of_gas = false;
 
   double longest_step(double nu);
+  void limit_step();
   double choose_step();
   void find_pressure();
   bool solve(double dt);

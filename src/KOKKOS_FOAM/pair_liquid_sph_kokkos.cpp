@@ -9,7 +9,6 @@
 
 #include "pair_liquid_sph_kokkos.h"
 
-
 #include "error.h"
 #include "neigh_list_kokkos.h"
 #include "neigh_request.h"

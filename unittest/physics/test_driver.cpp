@@ -439,3 +439,23 @@ TEST(Schemes, StagesTakeLongStepsOfStiffEquations)
   EXPECT_GT(springs.driver.h_last, 10.0 * 2.0 / 300.0);
   EXPECT_LT(springs.evaluations, 20.0 * 300.0 / 2.0 / 4.0);
 }
+
+// ---------------------------------------------------------------------- the largest length
+
+// with roots of the few that may be it, and of all: the same number, whatever comes first
+
+TEST(Totals, LargestLengthIsThatOfAllRoots)
+{
+  const double squares[] = {0.0, 1.0, 2.0, 2.0 + 4e-16, 1e-300, 3.0, 0.25, 1e300};
+  const double more[] = {0.0, 0.5, 1e-17, 2.0};
+  FoamMax few, all;
+  for (double m : more)
+    for (double s : squares) {
+      few.raise(LAMMPS_NS::FoamLength{s, m});
+      all.raise(std::sqrt(s) + m);
+      EXPECT_EQ(few.value, all.value) << s << " " << m;
+    }
+  few.raise(LAMMPS_NS::FoamLength{std::nan(""), 1.0});
+  EXPECT_EQ(few.value, all.value);
+  EXPECT_FALSE((LAMMPS_NS::FoamLength{std::nan(""), 1.0}.finite()));
+}
