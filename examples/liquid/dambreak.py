@@ -18,7 +18,7 @@ import numpy as np
 from lammps_foam.analysis import figure
 from lammps_foam.analysis.read import Frame, Unusable, read_frames
 
-from run import EXPLICIT, LIMITED, METHODS, RHEO, SETTINGS, SHORT_STEPS
+from run import EXPLICIT, LIMITED, METHODS, PAIRED, RHEO, SETTINGS, SHORT_STEPS
 from written import (Array, Rows, Series, complete, cost, folder, is_complete, of_sizes, read_table, report,
                      settings)
 
@@ -28,6 +28,7 @@ MEASURED = (         # time and front
     (1.76, 2.78), (1.93, 3.00), (2.07, 3.22), (2.24, 3.44), (2.40, 3.67), (2.54, 3.89), (2.71, 4.11))
 WAY = (1.67, 2.78)   # of the front, for its speed
 TITLES = {"projection": "this package", "explicit": "sph/taitwater", "rheo": "RHEO"}
+PAIR_TITLES = {"projection": "this package", "quick": "quick", "explicit": "sph/taitwater"}
 MARKS = {"projection": "o-", "explicit": "s--", "rheo": "^:"}
 
 
@@ -96,21 +97,30 @@ def at_same_error(rows: Rows) -> Rows:
     return found
 
 
-def pairs(out: Path) -> Rows:
-    """Seconds of both methods, one run after the other, some times: medians, and the range of the ratio."""
-    seconds: dict[int, dict[str, dict[str, float]]] = {}
+def pairs(out: Path, potential: Series) -> Rows:
+    """Seconds of methods that ran one after the other, some times: medians, ranges of ratios; and errors."""
+    found: dict[int, dict[str, dict[str, dict[str, Any]]]] = {}
     for path in complete(out / "pairs"):
         n, repeat, method = path.name.split("-")
-        seconds.setdefault(int(n), {}).setdefault(repeat, {})[method] = cost(path / "log.liquid")[1]
-    found: Rows = []
-    for n, repeats in seconds.items():
-        both = np.array([[pair["projection"], pair["explicit"]] for pair in repeats.values() if len(pair) == 2])
-        if len(both):
-            ratio = both[:, 1] / both[:, 0]
-            found.append({"n": n, "pairs": len(both), "this package": float(np.median(both[:, 0])),
-                          "explicit": float(np.median(both[:, 1])), "explicit over this": float(np.median(ratio)),
-                          "least": float(ratio.min()), "most": float(ratio.max())})
-    return found
+        its = dambreak_row(path.name, path, "projection" if method == "quick" else method, potential)
+        found.setdefault(int(n), {}).setdefault(repeat, {})[method] = its
+    rows: Rows = []
+    for n, repeats in found.items():
+        all_of_them = [run for run in repeats.values() if len(run) == len(PAIRED)]
+        if not all_of_them:
+            continue
+        row: dict[str, Any] = {"n": n, "runs": len(all_of_them)}
+        seconds = {method: np.array([run[method]["seconds"] for run in all_of_them]) for method in PAIRED}
+        for method, of in seconds.items():
+            row[PAIR_TITLES[method]] = float(np.median(of))
+        for method in ("projection", "quick"):
+            ratio = seconds["explicit"] / seconds[method]
+            row[f"sph/taitwater over {PAIR_TITLES[method]}"] = \
+                f"{np.median(ratio):.2f} ({ratio.min():.2f} to {ratio.max():.2f})"
+        for method in PAIRED:
+            row[f"error, {PAIR_TITLES[method]}"] = all_of_them[0][method]["error"]
+        rows.append(row)
+    return rows
 
 
 # ---------------------------------------------------------------- figures
@@ -194,7 +204,7 @@ def draw_dambreak(out: Path) -> None:
                 for row in rows if row["method"] == method], out / f"dambreak-{method}.csv")
     sized = of_sizes(rows)
     report(at_same_error(sized), out / "same-error.csv")
-    report(pairs(out), out / "pairs.csv")
+    report(pairs(out, potential), out / "pairs.csv")
     both = [row["n"] for row in sized if row["method"] == "projection" and is_complete(out / f"explicit/{row['n']}")]
     if both:
         draw_pictures(out, max(both), potential)

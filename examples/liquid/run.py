@@ -51,6 +51,7 @@ TANKS: dict[str, dict[str, str]] = {
 FINE_TANKS: dict[str, dict[str, str]] = {
     "Re 1e4 n 24": {"les": "none", "n": "24"},
 }
+QUICK = {"courant": "0.5", "tol": "1.0e-3"}            # as long as the error of the front does not tell
 SETTINGS: dict[str, dict[str, str]] = {                # what differs from in.dambreak
     "no eddies": {"les": "none"},
     "Re 1e4": {"Re": "1.0e4"},
@@ -62,6 +63,11 @@ SETTINGS: dict[str, dict[str, str]] = {                # what differs from in.da
     "tol 1e-3": {"tol": "1.0e-3"},
     "tol 1e-4": {"tol": "1.0e-4"},
     "tol 1e-8": {"tol": "1.0e-8"},
+    "courant 0.1": {"courant": "0.1"},
+    "courant 0.3": {"courant": "0.3"},
+    "courant 0.5": {"courant": "0.5"},
+    "courant 0.8": {"courant": "0.8"},
+    "quick": QUICK,
     "published": {"gravity": "published", "shift": "published"},
     "shift published": {"shift": "published"},
 }
@@ -104,8 +110,15 @@ PRECISION: dict[str, dict[str, str]] = {               # what differs from in.tu
     "dt 1/2": {"dtmax": "0.005"},                      # the flow begins with 0.010 at n = 16
     "dt 1/4": {"dtmax": "0.0025"},
     "dt 1/8": {"dtmax": "0.00125"},
+    "courant 0.4": {"courant": "0.4"},
+    "courant 0.8": {"courant": "0.8"},
 }
 METHODS = {"projection": "in.dambreak", "explicit": "explicit.lmp", "rheo": "rheo.lmp"}
+PAIRED: dict[str, tuple[str, dict[str, str]]] = {      # they run in turn
+    "projection": ("in.dambreak", {}),
+    "quick": ("in.dambreak", QUICK),
+    "explicit": ("explicit.lmp", {}),
+}
 
 
 @dataclass(frozen=True)
@@ -122,7 +135,7 @@ def sizes(group: str, full: bool) -> list[int]:
     """Particles along a unit of length."""
     few, more = {"vortex": ([12, 16, 24], [32, 48]), "beltrami": ([8, 12, 16, 24], [32, 48]),
                  "turbulence": ([24], [32]), "pushed": ([24], [32]), "dambreak": ([8, 12, 16, 24], [32, 48]),
-                 "rheo": ([8, 12, 16], [24]), "pairs": ([8, 16], [24]),
+                 "rheo": ([8, 12, 16], [24]), "pairs": ([8, 16], [24, 32]),
                  "iterations": ([8, 12, 16, 24], [32, 48, 64])}[group]
     return few + more if full else few
 
@@ -165,8 +178,8 @@ def runs_of_columns(groups: list[str], full: bool) -> Iterator[Run]:
     if "pairs" in groups:
         for n in sizes("pairs", full):
             for repeat in range(1, 6 if n < 24 else 4):
-                for method in ("projection", "explicit"):
-                    yield Run(f"pairs/{n}-{repeat}-{method}", METHODS[method], (("n", str(n)),))
+                for method, (script, words) in PAIRED.items():
+                    yield Run(f"pairs/{n}-{repeat}-{method}", script, tuple({"n": str(n), **words}.items()))
     if "iterations" in groups:
         for n in sizes("iterations", full):
             for ma in ("0", "0.05", "0.2"):

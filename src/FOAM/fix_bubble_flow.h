@@ -55,9 +55,9 @@ class FixBubbleFlow : public FixFoamTravelling {
 
   // from particles to bubbles: what is there, forces; with dt > 0 new velocities
 
-  template <class Space, class List>
-  void exchange_in(Space &space, const Liquid::Loop<typename Space::Bubbles, List> &liquid,
-                   const List &around, int nrows, double *const *acceleration, double dt);
+  template <class Space, class Loop, class List>
+  void exchange_in(Space &space, const Loop &liquid, const List &around, int nrows,
+                   double *const *acceleration, double dt);
   template <class Space> Liquid::BubbleColumns columns_in(Space &space)
   {
     Liquid::BubbleColumns all;
@@ -92,11 +92,9 @@ class FixBubbleFlow : public FixFoamTravelling {
   void break_up();
 };
 
-template <class Space, class List>
-void FixBubbleFlow::exchange_in(Space &space,
-                                const Liquid::Loop<typename Space::Bubbles, List> &liquid,
-                                const List &around, int nrows, double *const *acceleration,
-                                double dt)
+template <class Space, class Loop, class List>
+void FixBubbleFlow::exchange_in(Space &space, const Loop &liquid, const List &around, int nrows,
+                                double *const *acceleration, double dt)
 {
   using namespace Liquid;
   using B = typename Space::Bubbles;

@@ -108,6 +108,10 @@ FixLiquidFlow::FixLiquidFlow(LAMMPS *lmp, int narg, char **arg) : FixFoamTravell
           from_variable(input.argument("ay of acceleration"), ACCELERATION + 1);
           from_variable(input.argument("az of acceleration"), ACCELERATION + 2);
         }},
+       {"courant",
+        [&](const Value &v) {
+          courant = v.between(0.0, 1.0);
+        }},
        {"dtmax", [&](const Value &v) {
           longest = v.number(FoamInput::ABOVE, 0.0);
         }}});
@@ -334,8 +338,8 @@ double FixLiquidFlow::longest_step(double nu)    // viscosity of this rank
                      "counted in the volume of the liquid",
                      update->ntimestep, Liquid::MOST_GAS);
   }
-  const double step = Liquid::longest_step(set.h0, std::sqrt(all[0]), std::sqrt(all[3]), set.Re,
-                                           all[1], std::sqrt(all[4]));
+  const double step = Liquid::longest_step(courant, set.h0, std::sqrt(all[0]), std::sqrt(all[3]),
+                                           set.Re, all[1], std::sqrt(all[4]));
   return longest > 0.0 ? std::min(step, longest) : step;
 }
 
@@ -374,7 +378,7 @@ void FixLiquidFlow::keep_pressure()
 void FixLiquidFlow::gather(double dt)
 {
   FoamHost space(lmp, groupbit);
-  gather_in(space, *pair, dt);
+  gather_in(space, *pair, room, dt);
 }
 
 void FixLiquidFlow::project(double dt)
@@ -389,14 +393,18 @@ void FixLiquidFlow::move(double dt)
   move_in(space, dt);
 }
 
-Liquid::Matrix<true> FixLiquidFlow::HostRoom::matrix(size_t rows, size_t width)
+Liquid::CloseRows<true> FixLiquidFlow::HostRoom::close(size_t rows, size_t width)
 {
-  if (entries.size() < rows * width) {
-    entries.resize(rows * width);
-    columns.resize(rows * width);
-  }
+  if (partners.size() < rows * width) partners.resize(rows * width);
   if (sizes.size() < rows) sizes.resize(rows);
-  return {entries.data(), columns.data(), sizes.data(), rows, width};
+  return {partners.data(), sizes.data(), rows, width};
+}
+
+Liquid::Matrix<true> FixLiquidFlow::HostRoom::matrix(const Liquid::CloseRows<true> &close)
+{
+  if (entries.size() < close.rows * close.width) entries.resize(close.rows * close.width);
+  if (used.size() < close.rows) used.resize(close.rows);
+  return {close, entries.data(), used.data()};
 }
 
 /* ----------------------------------------------------------------------

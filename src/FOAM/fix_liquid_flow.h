@@ -89,12 +89,15 @@ class FixLiquidFlow : public FixFoamTravelling {
                                                        columns_in(space), set};
   }
 
-  // Rows: whose lists they are, as PairLiquidSPH; Room: where there is room for the matrix (fix_liquid_flow_loops.h)
+  // Rows: whose lists they are, as PairLiquidSPH; Room: for neighbors and the matrix (fix_liquid_flow_loops.h)
 
   template <class Space> void look_in(Space &);
   template <class Space> void keep_pressure_in(Space &);
   template <class Space> void advance_in(Space &, double dt);
-  template <class Space, class Rows> void gather_in(Space &, const Rows &, double dt);
+  template <class Space, class Rows, class Room> void find_close_in(Space &, const Rows &, Room &);
+  template <class Space, class Rows, class Room> auto close_loop_in(Space &, const Rows &, Room &);
+  template <class Space, class Rows, class Room>
+  void gather_in(Space &, const Rows &, Room &, double dt);
   template <class Space, class Rows, class Room>
   void project_in(Space &, const Rows &, Room &, double dt);
   template <class Space> void move_in(Space &, double dt);
@@ -109,14 +112,16 @@ class FixLiquidFlow : public FixFoamTravelling {
 
  private:
   struct HostRoom {
+    static constexpr bool BY_ROWS = true;
     std::vector<double> entries;
-    std::vector<int> columns, sizes;
-    Liquid::Matrix<true> matrix(size_t rows, size_t width);
+    std::vector<int> partners, sizes, used;
+    Liquid::CloseRows<true> close(size_t rows, size_t width);
+    Liquid::Matrix<true> matrix(const Liquid::CloseRows<true> &);
   } room;
-  int row_width = 96;                                // of the matrix: as much as was needed so far
+  int row_width = 96;                                // of neighbors: as many as there were so far
   std::vector<std::pair<int, std::string>> given;    // variables with the state of the start
 
-  double tolerance = 1.0e-6, longest = 0.0, given_dt = 0.0;
+  double tolerance = 1.0e-6, courant = Liquid::COURANT, longest = 0.0, given_dt = 0.0;
   int most_iterations = 1000;
   struct Progress {          // kept in restart files
     double next_dt = 0.0;    // 0: not yet known

@@ -60,23 +60,55 @@ template <class Space> void FixLiquidFlow::move_in(Space &space, double dt)
                       dt});
 }
 
-template <class Space, class Rows>
-void FixLiquidFlow::gather_in(Space &space, const Rows &near, double dt)
+// The rows of neighbors, in a room that grows until all are in
+
+template <class Space, class Rows, class Room>
+void FixLiquidFlow::find_close_in(Space &space, const Rows &near, Room &room)
 {
   using namespace Liquid;
   using B = typename Space::Bubbles;
   const auto list = near.rows(PairLiquidSPH::LIQUID);
   using List = std::remove_const_t<decltype(list)>;
-  const auto loop = loop_in(space, list);
-  const Columns &c = loop.c;
+  for (;;) {
+    const auto close = room.close(atom->nlocal, row_width);
+    space.for_all(near.nrows(PairLiquidSPH::LIQUID),
+                  FindClose<B, List, Room::BY_ROWS>{space.bubbles(), list, walls,
+                                                    space.column(work, H), close});
+    const Foam::FoamMax all =
+        space.template totals<Foam::FoamMax>(atom->nlocal, LongestRow{close.size});
+    const int longest = static_cast<int>(all);
+    if (longest <= row_width) break;
+    row_width = longest + longest / 8;
+  }
+}
+
+template <class Space, class Rows, class Room>
+auto FixLiquidFlow::close_loop_in(Space &space, const Rows &near, Room &room)
+{
+  const auto list = near.rows(PairLiquidSPH::LIQUID);
+  using List = std::remove_const_t<decltype(list)>;
+  return loop_in(space,
+                 Liquid::CloseList<List, Room::BY_ROWS>{list, room.close(atom->nlocal, row_width)});
+}
+
+template <class Space, class Rows, class Room>
+void FixLiquidFlow::gather_in(Space &space, const Rows &near, Room &room, double dt)
+{
+  using namespace Liquid;
+  using B = typename Space::Bubbles;
+  const Columns c = columns_in(space);
   const int nrows = near.nrows(PairLiquidSPH::LIQUID);
 
   space.for_all(atom->nlocal + atom->nghost, WithoutGas{c, set});
   if (gas) {
     const auto bubbles = loop_in(space, near.rows(PairLiquidSPH::BUBBLES_OF_LIQUID));
-    space.for_all(nrows, TakeGas<B, List>{bubbles, space.column(state, SMOOTHING)});
+    using Bubbles = std::remove_const_t<decltype(bubbles.list)>;
+    space.for_all(nrows, TakeGas<B, Bubbles>{bubbles, space.column(state, SMOOTHING)});
     send(work, ALPHA, 2);
   }
+  find_close_in(space, near, room);
+  const auto loop = close_loop_in(space, near, room);
+  using List = std::remove_const_t<decltype(loop.list)>;
   space.for_all(nrows, Gather<B, List>{loop});
   if (set.shifts || gas) {
     send(work, SURFACE, 7);    // and raw normals
@@ -93,8 +125,9 @@ void FixLiquidFlow::gather_in(Space &space, const Rows &near, double dt)
     gas->exchange_in(space, loop, near.rows(PairLiquidSPH::LIQUID_OF_BUBBLES),
                      near.nrows(PairLiquidSPH::LIQUID_OF_BUBBLES), acceleration, dt);
     send(gas->work, REACTION, AT_BUBBLES - REACTION);
-    space.for_all(nrows, TakeReaction<B, List>{loop.b, near.rows(PairLiquidSPH::BUBBLES_OF_LIQUID),
-                                               c, gas->columns_in(space)});
+    const auto bubbles = near.rows(PairLiquidSPH::BUBBLES_OF_LIQUID);
+    using Bubbles = std::remove_const_t<decltype(bubbles)>;
+    space.for_all(nrows, TakeReaction<B, Bubbles>{loop.b, bubbles, c, gas->columns_in(space)});
   }
   totals = space.template totals<GatherTotals>(atom->nlocal, Account{c, set});
 }
@@ -128,29 +161,20 @@ void FixLiquidFlow::project_in(Space &space, const Rows &near, Room &room, doubl
 {
   using namespace Liquid;
   using B = typename Space::Bubbles;
-  const auto list = near.rows(PairLiquidSPH::LIQUID);
-  using List = std::remove_const_t<decltype(list)>;
-  const auto loop = loop_in(space, list);
+  const auto loop = close_loop_in(space, near, room);
+  using List = std::remove_const_t<decltype(loop.list)>;
   const int nrows = near.nrows(PairLiquidSPH::LIQUID);
   send(work, DIFFUSES, 1);
   space.for_all(nrows, Predict<B, List>{loop, space.column(state, SMOOTHING), dt});
   send(work, STAR, 3);
 
-  auto matrix = room.matrix(atom->nlocal, row_width);
-  using M = decltype(matrix);
+  const auto matrix = room.matrix(loop.list.close);
+  using M = std::remove_const_t<decltype(matrix)>;
   const double *const before = space.column(state, PRESSURE);
   double *const pressure = space.column(work, SOLUTION);
   space.for_all(atom->nlocal, Extrapolate{before, space.column(state, OLDER), pressure,
                                           now.done_dt > 0.0 ? dt / now.done_dt : 0.0});
-  for (;;) {
-    space.for_all(nrows, Assemble<B, List, M>{loop, matrix, before, space.column(vectors, 0), dt});
-    const Foam::FoamMax all =
-        space.template totals<Foam::FoamMax>(atom->nlocal, LongestRow{matrix.size});
-    const int longest = static_cast<int>(all);
-    if (longest <= row_width) break;
-    row_width = longest + longest / 8;
-    matrix = room.matrix(atom->nlocal, row_width);
-  }
+  space.for_all(nrows, Assemble<B, List, M>{loop, matrix, before, space.column(vectors, 0), dt});
   solved = solve_in(space, matrix);
   level = 0.0;
   if (without_level) {

@@ -12,12 +12,13 @@
 
 #include "foam_bubbles.h"
 #include "liquid_physics.h"
-#include "liquid_walls.h"
+#include "liquid_rows.h"
 
 // One step of the liquid [K23], as functors for each particle.  A particle gathers from its neighbors with its own h.
 // Between these loops ghosts get the columns that the next one reads of neighbors:
 //
 //   TakeGas       c, alpha, h                                         reads bubbles
+//   FindClose     the neighbors that all others go through (liquid_rows.h)
 //   Gather        L, gradients, cover, shift, closure                 reads alpha, u
 //   Smooth        normals of the surface                              reads raw normals
 //   Predict       u* = u + (dt/alpha) [div(alpha (1 + nu) grad u) / Re + M] + dt f/m       reads alpha (1 + nu)
@@ -71,35 +72,6 @@ struct Setting {
   FOAM_FUNCTION double volume_of_liquid() const { return dr * dr * dr; }
 };
 
-// Neighbors of a particle within 2 h, and images of them and, if they are of the same kind, of itself: visit(j, r_i - r_j,
-// distance, image)
-
-template <bool SAME, class Row, class B, class Visit>
-FOAM_ALWAYS_INLINE void neighbors(const Row &row, const B &b, const Walls &walls, double h,
-                                  const Visit &visit)
-{
-  const int i = row.i;
-  const double x[3] = {b.x(i, 0), b.x(i, 1), b.x(i, 2)}, reach = SUPPORT * h;
-  const NearWalls near(walls, x, reach);
-  auto look = [&](int j, const Image &image) {
-    double r[3], square = 0.0;
-    for (int k = 0; k < 3; k++) {
-      r[k] = x[k] - image.coordinate(b.x(j, k), k);
-      square += r[k] * r[k];
-    }
-    if (square < reach * reach) visit(j, r, std::sqrt(square), image);
-  };
-  auto images = [&](int j) {
-    for (int axes = 1; axes < 8; axes++)
-      if ((axes & near.axes) == axes) look(j, image_across(near, axes));
-  };
-  row.for_each([&](int j, auto) {
-    look(j, Image());
-    if (near.axes) images(j);
-  });
-  if (SAME && near.axes) images(i);
-}
-
 // What the loops have in common
 
 template <class B, class List> struct Loop {
@@ -144,7 +116,7 @@ template <class B, class List> struct TakeGas : Loop<B, List> {
     const Kernel W(before[i] > 0.0 ? before[i] : this->set.h0);
     double sum = 0.0;
     neighbors<false>(row, this->b, this->walls, W.h,
-                     [&](int j, const double *, double r, const Image &) {
+                     [&](int j, const double *, double r, const auto &) {
                        sum += W(r) * bubble_volume(this->b.radius(j));
                      });
     this->c(GAS, i) = sum = std::fmin(sum, MOST_GAS);
@@ -193,7 +165,7 @@ template <class B, class List> struct Gather : Loop<B, List> {
     double A[6] = {}, raw[3] = {}, concentration[3] = {}, difference[3][3] = {}, of_alpha[3] = {};
     double weights = Vi * w0, filtered[3] = {weights * u[0], weights * u[1], weights * u[2]};
 
-    this->neighbors_of(row, [&](int j, const double *r, double distance, const Image &image) {
+    this->neighbors_of(row, [&](int j, const double *r, double distance, const auto &image) {
       const double V = this->volume(j), w = W(distance), s = V * W.slope_over_r(distance);
       const double uj[3] = {this->b.v(j, 0), this->b.v(j, 1), this->b.v(j, 2)};
       const double shifts = s * shift_weight(w, w0);
@@ -277,7 +249,7 @@ template <class B, class List> struct Smooth : Loop<B, List> {
     bool near = c(SURFACE, i) > 0.0;
     double weights = this->volume(i) * W(0.0), sum[3];
     for (int k = 0; k < 3; k++) sum[k] = weights * c(RAW + k, i);
-    this->neighbors_of(row, [&](int j, const double *, double distance, const Image &image) {
+    this->neighbors_of(row, [&](int j, const double *, double distance, const auto &image) {
       const double f = this->volume(j) * W(distance);
       weights += f;
       if (this->set.slides && c(SURFACE, j) > 0.0) near = true;
@@ -311,7 +283,7 @@ template <class B, class List> struct Predict : Loop<B, List> {
     const Kernel W(c(H, i));
     const double u[3] = {this->b.v(i, 0), this->b.v(i, 1), this->b.v(i, 2)}, kappa = c(DIFFUSES, i);
     double sum[3] = {};
-    this->neighbors_of(row, [&](int j, const double *, double distance, const Image &image) {
+    this->neighbors_of(row, [&](int j, const double *, double distance, const auto &image) {
       const double weight = harmonic_mean(kappa, c(DIFFUSES, j)) *
                             laplacian_weight(W.slope_over_r(distance), this->volume(j));
       for (int k = 0; k < 3; k++) sum[k] += weight * (u[k] - image.velocity(this->b.v(j, k), k));
@@ -361,19 +333,19 @@ template <class B, class List, class Matrix> struct Assemble : Loop<B, List> {
     double difference[3][3] = {}, diagonal = -compressed, heads = 0.0, of_pair = 0.0;
     int count = 0, last = -1;
     auto close = [&]() {
-      if (last < 0 || last == i || surface || of_pair == 0.0) return;
-      matrix.put(i, count++, last, of_pair);
+      if (last >= 0 && last != i) matrix.put(i, count++, of_pair);
     };
-    this->neighbors_of(row, [&](int j, const double *r, double distance, const Image &image) {
+    this->neighbors_of(row, [&](int j, const double *r, double distance, const auto &image) {
       const double V = this->volume(j), s = W.slope_over_r(distance);
       const double scale = this->set.published ? c(ALPHA, j) : 1.0;
       double weight = laplacian_weight(s, V);
       if (this->set.published)
         weight += s * V * (steep[0] * r[0] + steep[1] * r[1] + steep[2] * r[2]);
-      Image seen = image;
-      if (!this->set.sticks) seen.noslip = 0;
+      const auto slipping = image.slipping();
       for (int k = 0; k < 3; k++) {
-        const double d = seen.velocity(c(STAR + k, j), k) - star[k];
+        const double u = c(STAR + k, j);
+        const double d =
+            (this->set.sticks ? image.velocity(u, k) : slipping.velocity(u, k)) - star[k];
         for (int a = 0; a < 3; a++) difference[a][k] += V * s * r[a] * d;
         const double from =
             this->set.balanced ? this->b.x(i, k) : image.coordinate(this->b.x(j, k), k);
@@ -448,7 +420,7 @@ template <class B, class List> struct Project : Loop<B, List> {
     const Kernel W(c(H, i));
     const double p = c(SOLUTION, i);
     double sum[3] = {}, L[6], gradient[3];
-    this->neighbors_of(row, [&](int j, const double *r, double distance, const Image &image) {
+    this->neighbors_of(row, [&](int j, const double *r, double distance, const auto &image) {
       const double s = this->volume(j) * W.slope_over_r(distance);
       double difference = c(SOLUTION, j) - p;
       const double scale = this->set.published ? c(ALPHA, j) : 1.0;

@@ -11,6 +11,7 @@
 #define LMP_LIQUID_SOLVER_H
 
 #include "foam_totals.h"
+#include "liquid_rows.h"
 
 #include <algorithm>
 #include <cmath>
@@ -24,27 +25,18 @@ namespace Liquid {
 
 using LAMMPS_NS::FoamSum;
 
-// Entries of a row one after the other on a host, those of one place in all rows on a device.  Rows that lie close together are
-// read faster: a width that most rows leave empty takes the caches twice.  So it is found by trying: a row that is longer
-// than there is room says so by its size.
+// An entry for each neighbor (liquid_rows.h), in the same places; a row may have none of them
 
 template <bool BY_ROWS> struct Matrix {
+  CloseRows<BY_ROWS> close;
   double *value;
-  int *column, *size;
-  size_t rows, width;    // room for so many
+  int *size;
 
-  FOAM_FUNCTION size_t at(int i, int m) const { return BY_ROWS ? i * width + m : m * rows + i; }
-  FOAM_FUNCTION void put(int i, int m, int j, double a) const
-  {
-    if (static_cast<size_t>(m) >= width) return;
-    value[at(i, m)] = a;
-    column[at(i, m)] = j;
-  }
+  FOAM_FUNCTION void put(int i, int m, double a) const { value[close.at(i, m)] = a; }
   FOAM_FUNCTION void end(int i, int n, double factor) const
   {
     size[i] = n;
-    const int kept = static_cast<size_t>(n) < width ? n : static_cast<int>(width);
-    for (int m = 0; m < kept; m++) value[at(i, m)] *= factor;
+    for (int m = 0; m < n; m++) value[close.at(i, m)] *= factor;
   }
   FOAM_FUNCTION double times(int i, const double *x) const
   {
@@ -52,17 +44,15 @@ template <bool BY_ROWS> struct Matrix {
                      0.0};    // so that an addition need not wait for the one before
     const int n = size[i];
     int m = 0;
+    auto product = [&](int m) {
+      const size_t at = close.at(i, m);
+      return value[at] * x[close.partner[at]];
+    };
     for (; m + 4 <= n; m += 4)
-      for (int k = 0; k < 4; k++) sum[k] += value[at(i, m + k)] * x[column[at(i, m + k)]];
-    for (; m < n; m++) sum[0] += value[at(i, m)] * x[column[at(i, m)]];
+      for (int k = 0; k < 4; k++) sum[k] += product(m + k);
+    for (; m < n; m++) sum[0] += product(m);
     return (sum[0] + sum[1]) + (sum[2] + sum[3]);
   }
-};
-
-struct LongestRow {
-  static constexpr const char *NAME = "liquid: longest row";
-  const int *size;
-  FOAM_FUNCTION void operator()(int i, LAMMPS_NS::FoamMax &all) const { all.raise(size[i]); }
 };
 
 struct Vectors {

@@ -64,11 +64,11 @@ struct NearWalls {
   }
 };
 
-// A particle's image across some of these axes: no axis, the particle itself
+// A particle's image across some of these axes
 
 struct Image {
-  int axes = 0, noslip = 0;
-  double place[3] = {0.0, 0.0, 0.0};
+  int axes, noslip;
+  double place[3];
 
   FOAM_FUNCTION bool across(int k) const { return axes & (1 << k); }
   FOAM_FUNCTION double coordinate(double x, int k) const
@@ -86,6 +86,17 @@ struct Image {
     return reversed ? -u : u;
   }
   FOAM_FUNCTION double vector(double n, int k) const { return across(k) ? -n : n; }
+  FOAM_FUNCTION Image slipping() const { return {axes, 0, {place[0], place[1], place[2]}}; }
+};
+
+// The particle itself, of another type, so that loops over most particles know nothing of walls
+
+struct Itself {
+  static constexpr int axes = 0;
+  FOAM_FUNCTION double coordinate(double x, int) const { return x; }
+  FOAM_FUNCTION double velocity(double u, int) const { return u; }
+  FOAM_FUNCTION double vector(double n, int) const { return n; }
+  FOAM_FUNCTION Itself slipping() const { return {}; }
 };
 
 FOAM_FUNCTION Image image_across(const NearWalls &near, int axes)

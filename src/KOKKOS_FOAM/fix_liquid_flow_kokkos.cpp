@@ -68,7 +68,7 @@ template <class DeviceType> void FixLiquidFlowKokkos<DeviceType>::order()
 template <class DeviceType> void FixLiquidFlowKokkos<DeviceType>::gather(double dt)
 {
   if (this->neighbor->ago == 0) make_owners();
-  this->gather_in(space, near(), dt);
+  this->gather_in(space, near(), room_there, dt);
 }
 
 template <class DeviceType> void FixLiquidFlowKokkos<DeviceType>::project(double dt)
@@ -81,28 +81,37 @@ template <class DeviceType> void FixLiquidFlowKokkos<DeviceType>::move(double dt
   this->move_in(space, dt);
 }
 
-// Entries of one place in all rows on a device, which its threads then read side by side
+template <class Numbers> static void make_room(Numbers &numbers, const char *name, size_t size)
+{
+  if (numbers.extent(0) >= size) return;
+  numbers = {};    // before there is room for more
+  numbers =
+      Numbers(Kokkos::view_alloc(std::string(name), Kokkos::WithoutInitializing), size + size / 10);
+}
 
 template <class DeviceType>
-Liquid::Matrix<FoamKokkos<DeviceType>::ON_HOST>
-FixLiquidFlowKokkos<DeviceType>::RoomThere::matrix(size_t rows, size_t width)
+auto FixLiquidFlowKokkos<DeviceType>::RoomThere::close(size_t rows, size_t width)
+    -> Liquid::CloseRows<BY_ROWS>
 {
-  auto make = [](auto &numbers, const std::string &name, size_t size) {
-    if (numbers.extent(0) >= size) return;
-    numbers = {};    // before there is room for more
-    numbers = std::decay_t<decltype(numbers)>(Kokkos::view_alloc(name, Kokkos::WithoutInitializing),
-                                              size + size / 10);
-  };
-  make(entries, "liquid/flow:entries", rows * width);
-  make(columns, "liquid/flow:columns", rows * width);
-  make(sizes, "liquid/flow:sizes", rows);
-  return {entries.data(), columns.data(), sizes.data(), rows, width};
+  make_room(partners, "liquid/flow:partners", rows * width);
+  make_room(sizes, "liquid/flow:sizes", rows);
+  return {partners.data(), sizes.data(), rows, width};
+}
+
+template <class DeviceType>
+auto FixLiquidFlowKokkos<DeviceType>::RoomThere::matrix(const Liquid::CloseRows<BY_ROWS> &close)
+    -> Liquid::Matrix<BY_ROWS>
+{
+  make_room(entries, "liquid/flow:entries", close.rows * close.width);
+  make_room(used, "liquid/flow:used", close.rows);
+  return {close, entries.data(), used.data()};
 }
 
 template <class DeviceType> double FixLiquidFlowKokkos<DeviceType>::memory_usage()
 {
-  return FixLiquidFlow::memory_usage() + sizeof(double) * double(room_there.entries.extent(0)) +
-         sizeof(int) * double(room_there.columns.extent(0) + room_there.sizes.extent(0));
+  const RoomThere &its = room_there;
+  return FixLiquidFlow::memory_usage() + sizeof(double) * double(its.entries.extent(0)) +
+         sizeof(int) * double(its.partners.extent(0) + its.sizes.extent(0) + its.used.extent(0));
 }
 
 /* ----------------------------------------------------------------------

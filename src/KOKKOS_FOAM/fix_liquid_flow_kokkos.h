@@ -48,8 +48,10 @@ class FixLiquidFlowKokkos : public FoamTravellingKokkos<FixLiquidFlow, DeviceTyp
   struct RoomThere {
     template <class T> using Numbers = Kokkos::View<T *, DeviceType>;
     Numbers<double> entries;
-    Numbers<int> columns, sizes;
-    Liquid::Matrix<FoamKokkos<DeviceType>::ON_HOST> matrix(size_t rows, size_t width);
+    static constexpr bool BY_ROWS = FoamKokkos<DeviceType>::ON_HOST;
+    Numbers<int> partners, sizes, used;
+    Liquid::CloseRows<BY_ROWS> close(size_t rows, size_t width);
+    Liquid::Matrix<BY_ROWS> matrix(const Liquid::CloseRows<BY_ROWS> &);
   } room_there;
 
   // On a single rank each ghost is the image of an owned particle: one loop brings columns to all of them

@@ -123,8 +123,9 @@ TEST(Solver, FindsTheSolution)
   constexpr int N = 60;
   Samples samples(3);
   std::vector<double> value(N * N), dense(N * N, 0.0), exact(N);
-  std::vector<int> column(N * N), size(N);
-  const Matrix<true> A{value.data(), column.data(), size.data(), N, N};
+  std::vector<int> partner(N * N), size(N), used(N);
+  const CloseRows<true> close{partner.data(), size.data(), N, N};
+  const Matrix<true> A{close, value.data(), used.data()};
   std::vector<std::vector<double>> v(8, std::vector<double>(N, 0.0));
   const Vectors w{v[0].data(), v[1].data(), v[2].data(), v[3].data(),
                   v[4].data(), v[5].data(), v[6].data(), v[7].data()};
@@ -132,8 +133,10 @@ TEST(Solver, FindsTheSolution)
     int count = 0;
     exact[i] = samples.uniform(-1.0, 1.0);
     for (int j = 0; j < N; j++)
-      if (j != i && samples.uniform(0.0, 1.0) < 0.2)
-        A.put(i, count++, j, samples.uniform(0.0, 0.16));
+      if (j != i && samples.uniform(0.0, 1.0) < 0.2) {
+        close.put(i, count, j);
+        A.put(i, count++, samples.uniform(0.0, 0.16));
+      }
     A.end(i, count, -0.5);
   }
   for (int i = 0; i < N; i++) v[1][i] = A.times(i, exact.data());

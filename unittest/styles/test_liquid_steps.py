@@ -158,11 +158,19 @@ def test_a_run_without_set_up_has_the_step_that_is_due(lmp):
     assert second["Time"][1] - second["Time"][0] == pytest.approx(due, rel=1e-12)
 
 
-def test_forces_shorten_steps(lmp):
-    """As gravity does: nothing goes further than 0.2 h from rest."""
+@pytest.mark.parametrize("courant", [None, 0.5])
+def test_forces_shorten_steps(lmp, courant):
+    """As gravity does: nothing goes further than 0.2 h from rest, or than it may by *courant*."""
     text = tank(dt=100.0, more=LIMITS + f"fix push water addforce {40 * 0.1**3} 0 0\nrun 3\n")
-    table = lmp(text.replace("liquid/flow 1000 1.0", "liquid/flow 1000 none")).thermo[0]
-    assert table["Time"][1] == pytest.approx(0.2 * np.sqrt(H / 40), rel=1e-12)
+    keyword = f" courant {courant}" if courant else ""
+    table = lmp(text.replace("liquid/flow 1000 1.0", f"liquid/flow 1000 none{keyword}")).thermo[0]
+    assert table["Time"][1] == pytest.approx((courant or 0.2) * np.sqrt(H / 40), rel=1e-12)
+
+
+def test_courant_leaves_the_limit_of_viscosity(lmp):
+    """At 0.4 in the place of 0.2 there a flow at Re = 1 grows without end."""
+    table = lmp(VORTEX.format(n=8, Re=1, more="courant 0.9") + "run 40\n").thermo[0]
+    assert table["f_l[2]"] == pytest.approx(np.full(41, 0.2 * (1.3 / 8)**2), rel=1e-12)
 
 
 def test_fast_bubbles_shorten_steps(lmp):
