@@ -3,6 +3,7 @@
 
     liquid.py --lmp "COMMAND" [--sizes 12,16,24,32,48] [--repeat 3] [--steps 10] [--out DIR]     ten minutes
     liquid.py --lmp "COMMAND" --sizes 12 --repeat 1 --no-count                                   seconds
+    liquid.py --way "base=lmp" --way "2 ranks=mpiexec -n 2 lmp" ... [--sizes 32]                 on more cores
 
 A periodic cube of n^3 particles, with the velocities of examples/liquid/in.turbulence at Re 1e6.  Nothing but the
 solver's tolerance changes, and with it the number of iterations.  Time per particle and step is then a straight line:
@@ -15,7 +16,8 @@ its slope is what an iteration costs, and where it begins what all else costs, l
                  both products, and 160 for vectors and lengths of rows.  Over the bandwidth of a triad (triad.cpp) on
                  one core they are the least time of an iteration, if the matrix is larger than the caches.
 
-Writes liquid.csv.
+Writes liquid.csv.  With --way, NAME=COMMAND, only ways.csv: time by the clock of these ways to start LAMMPS, on several
+ranks or threads, in turn, smallest of --repeat.
 """
 from __future__ import annotations
 
@@ -78,7 +80,7 @@ print         "measured particles $(count(all)) entries $(c_entries)"
 
 class Bench:
     def __init__(self, args: argparse.Namespace) -> None:
-        self.lmp, self.args = shlex.split(args.lmp), args
+        self.lmp, self.args = shlex.split(args.lmp), args    # how LAMMPS is started now
         self.script = args.out / "in.liquid"
         self.script.write_text(SCRIPT)
 
@@ -130,6 +132,21 @@ def mean_iterations(loop: str) -> float:
     return float(np.mean([int(one) for one in lines[1:]]))
 
 
+def rows_of_ways(bench: Bench, ways: dict[str, str], sizes: list[int]) -> list[dict[str, object]]:
+    """By the clock; ratios are those of the first way over the others."""
+    best: dict[tuple[int, str], float] = {}
+    for n in sizes:
+        for turn in range(bench.args.repeat):
+            for name, command in ways.items():
+                bench.lmp = shlex.split(command)
+                loop = bench.run(n, USUAL, bench.args.steps).split("Setting up Verlet run")[2]
+                per = 1e9 * loop_seconds(loop)[0] / n**3 / bench.args.steps
+                best[n, name] = min(per, best.get((n, name), per))
+    first = next(iter(ways))
+    return [{"n": n, "way": name, "ns by the clock": f"{ns:.0f}",
+             f"times as fast as {first}": f"{best[n, first] / ns:.2f}"} for (n, name), ns in best.items()]
+
+
 def rows_of(bench: Bench, sizes: list[int], bandwidth: float | None) -> list[dict[str, object]]:
     rows: list[dict[str, object]] = []
     for n in sizes:
@@ -153,30 +170,43 @@ def rows_of(bench: Bench, sizes: list[int], bandwidth: float | None) -> list[dic
     return rows
 
 
+def write(rows: list[dict[str, object]], path: Path) -> None:
+    with path.open("w", newline="") as file:
+        for writer in (csv.DictWriter(file, list(rows[0]), lineterminator="\n"),
+                       csv.DictWriter(sys.stdout, list(rows[0]), lineterminator="\n", delimiter="\t")):
+            writer.writeheader()
+            writer.writerows(rows)
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--lmp", default="lmp", metavar="COMMAND", help="how to start LAMMPS (default %(default)s)")
     parser.add_argument("--sizes", default="12,16,24,32,48", metavar="N,N", help="particles along an edge")
     parser.add_argument("--repeat", type=int, default=3, help="times that each run is done (default %(default)s)")
     parser.add_argument("--steps", type=int, default=10, help="that are measured (default %(default)s)")
+    parser.add_argument("--way", action="append", default=[], metavar="NAME=COMMAND", help="these ways alone, in turn")
     parser.add_argument("--no-count", action="store_true", help="no instructions")
     parser.add_argument("--out", type=Path, default=Path(), metavar="DIR", help="where everything is written")
     args = parser.parse_args()
     args.out.mkdir(parents=True, exist_ok=True)
     bench = Bench(args)
+    sizes = [int(n) for n in args.sizes.split(",")]
+    if args.way:
+        ways = dict(way.partition("=")[::2] for way in args.way)
+        try:
+            write(rows_of_ways(bench, ways, sizes), args.out / "ways.csv")
+        except Failed as error:
+            sys.exit(str(error))
+        return
     bandwidth = host_bandwidth(1, args.out)
     try:
-        rows = rows_of(bench, [int(n) for n in args.sizes.split(",")], bandwidth)
+        rows = rows_of(bench, sizes, bandwidth)
         rest, iteration = (float("nan"), float("nan")) if args.no_count else bench.instructions()
     except Failed as error:
         sys.exit(str(error))
     print(cpu_name(), f"triad {bandwidth} GB/s" if bandwidth else "", sep="\n")
     print(f"instructions per particle and step, n = {COUNTED[0]}: {iteration:.0f} an iteration, {rest:.0f} all else")
-    with (args.out / "liquid.csv").open("w", newline="") as file:
-        for writer in (csv.DictWriter(file, list(rows[0]), lineterminator="\n"),
-                       csv.DictWriter(sys.stdout, list(rows[0]), lineterminator="\n", delimiter="\t")):
-            writer.writeheader()
-            writer.writerows(rows)
+    write(rows, args.out / "liquid.csv")
 
 
 if __name__ == "__main__":

@@ -21,6 +21,7 @@ from lammps_foam.analysis.read import Unusable, read_frames
 
 from dambreak import draw_dambreak
 from precision import draw_precision
+from rise import draw_rise
 from run import FINE_TANKS, LIMITED, TANKS, VORTICES
 from turbulence import draw_beltrami, draw_bubble, draw_turbulence
 from written import Rows, complete, cost, folder, is_complete, read_table, report, settings
@@ -159,7 +160,7 @@ def draw_iterations(out: Path) -> None:
 
 def draw(out: Path) -> None:
     parts = {"vortex": draw_vortex, "beltrami": draw_beltrami, "turbulence": draw_turbulence, "bubble": draw_bubble,
-             "tank": draw_tank, "projection": draw_dambreak, "precision": draw_precision,
+             "rise": draw_rise, "tank": draw_tank, "projection": draw_dambreak, "precision": draw_precision,
              "iterations": draw_iterations}
     there = [name for name in parts if complete(out / name)]
     if not there:

@@ -25,12 +25,18 @@ import time
 from written import folder
 
 HERE = Path(__file__).resolve().parent
-GROUPS = ("vortex", "beltrami", "turbulence", "bubble", "tank", "dambreak", "pairs", "precision", "iterations")
+GROUPS = ("vortex", "beltrami", "turbulence", "bubble", "rise", "tank", "dambreak", "pairs", "precision", "iterations")
 LIMITED = "1.0"                                        # longest step: what the flow allows
 CLOSURES = {"none": "none", "mixed": "mixed 0.06", "smagorinsky": "smagorinsky 0.1"}
 PUSHED = {"force": "1.0", "push": "4", "T": "6"}       # pushed until 4, then left alone
 RADII = ("0.1", "0.2", "0.4")                          # of a bubble, over the spacing
 PLACES = (("0.1", "0.2", "0.3"), ("0.0", "0.0", "0.0"), ("0.5", "0.5", "0.5"), ("0.4", "0.1", "0.25"))
+RISES: dict[str, dict[str, str]] = {                   # of a bubble, below the surface
+    "1 mm": {},
+    "0.5 mm": {"a": "5.0e-4"},
+    "2 mm": {"a": "2.0e-3"},
+    "dr 0.01": {"dr": "0.01"},
+}
 VORTICES: dict[str, dict[str, str]] = {                # what differs from in.vortex with steps below 0.004
     "lattice": {"n": "24", "jiggle": "0"},
     "tol 1e-3": {"tol": "1.0e-3"},
@@ -195,6 +201,9 @@ def runs(groups: list[str], full: bool) -> Iterator[Run]:
                           (("a", radius), *zip(("px", "py", "pz"), place)))
         for dt in ("0.01", "1.0"):
             yield Run(f"bubble/dt-{dt}", "in.bubble", (("dt", dt),))
+    if "rise" in groups:
+        for name, words in RISES.items():
+            yield Run(f"rise/{folder(name)}", "in.rise", tuple(words.items()))
     if "tank" in groups:
         for name, words in {**TANKS, **(FINE_TANKS if full else {})}.items():
             yield Run(f"tank/{folder(name)}", "in.tank", tuple({"steps": "10000", **words}.items()))
