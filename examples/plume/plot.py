@@ -25,7 +25,7 @@ from matplotlib.axes import Axes
 import numpy as np
 from numpy.typing import NDArray
 from scipy.integrate import cumulative_trapezoid, solve_ivp
-from scipy.optimize import brentq, curve_fit, least_squares
+from scipy.optimize import brentq, least_squares
 
 from common import columns, complete, cost, film, frames_of
 from lammps_foam.analysis import figure, table
@@ -112,7 +112,8 @@ def fitted(r: Array, w: Array, number: Array) -> tuple[float, float]:
     w0, b = max(w[0], 1e-3), 0.1
     for _ in range(5):
         near = (r < WIDTHS * b) | (np.arange(len(r)) < 4)
-        (w0, b), _ = curve_fit(gaussian, r[near], w[near], p0=(w0, b), sigma=1 / np.sqrt(number[near]))
+        weight = np.sqrt(number[near])
+        w0, b = least_squares(lambda p: weight * (gaussian(r[near], *p) - w[near]), (w0, b), method="lm").x
         b = abs(b)
     return float(w0), float(b)
 
@@ -368,6 +369,23 @@ def of_one(directory: Path, out: Path, start: float | None = None) -> tuple[Plum
     return plume, rows
 
 
+def draw_closures(rows: Rows, out: Path) -> None:
+    """What differs from the first run, which has all of them."""
+    panels = {"w0": "speed on the axis", "b": "width", "gas_width": "width of the bubbles", "kinetic": "kinetic energy",
+              "ms_step": "ms of a step"}
+    fig, axes = figure.panels(1, len(panels), width=1.75, height=2.6)
+    names = [row["run"] for row in rows]
+    place = np.arange(len(rows))[::-1]
+    for ax, (name, label) in zip(axes, panels.items()):
+        error = column(rows, f"{name}_error") if f"{name}_error" in rows[0] else None
+        ax.errorbar(column(rows, name), place, xerr=error, fmt="o", ms=4)
+        ax.axvline(rows[0][name], color="0.6", lw=0.7)
+        ax.set(xlabel=label, ylim=(-0.5, len(rows) - 0.5), xlim=(0, 1.15 * column(rows, name).max()))
+        ax.set_yticks(place, names if ax is axes[0] else [])
+        ax.tick_params(axis="y", which="minor", left=False, right=False)
+    figure.save(fig, out / "plume-closures")
+
+
 def draw(out: Path) -> None:
     """All that run.py wrote."""
     read_already: dict[Path, tuple[Plume, Rows]] = {}
@@ -387,14 +405,20 @@ def draw(out: Path) -> None:
         draw_heights({f"n = {path.name}": get(path)[1] for path in plumes}, out, "theory", True)
     if plumes and published:
         draw_heights({"standard": get(plumes[0])[1], "published": get(published[0])[1]}, out, "momentum", False)
+    closures.sort()
     sizes = complete(out, "sizes")
     if sizes:
         draw_sizes({"langevin" if path.name == "langevin" else "none": get(path)[0] for path in sizes}, out)
-    for name, paths in (("summary", [*plumes, *published]), ("closures", closures)):
-        if paths:
-            rows = [summary(path, *get(path)) for path in paths]
-            table.show(columns(rows))
-            table.write(columns(rows), out / f"{name}.csv")
+    for name, paths in (("summary", [*plumes, *published]), ("closures", [*plumes[:1], *closures] if closures else [])):
+        if not paths:
+            continue
+        rows = [summary(path, *get(path)) for path in paths]
+        if name == "closures":
+            if plumes:
+                rows[0]["run"] = "all of them"
+            draw_closures(rows, out)
+        table.show(columns(rows))
+        table.write(columns(rows), out / f"{name}.csv")
     if not (plumes or published or sizes or closures):
         raise Unusable(f"{out} has no run of run.py, and no {DUMP}")
 
