@@ -193,6 +193,8 @@ def main() -> None:
     sizes = [int(n) for n in args.sizes.split(",")]
     if args.way:
         ways = dict(way.partition("=")[::2] for way in args.way)
+        if not all(ways.values()) or len(ways) < len(args.way):
+            parser.error("each --way has a name of its own and a command: NAME=COMMAND")
         try:
             write(rows_of_ways(bench, ways, sizes), args.out / "ways.csv")
         except Failed as error:

@@ -240,9 +240,11 @@ void FixLiquidFlow::final_integrate()
 {
   work.use(atom->nmax);
   vectors.use(atom->nmax);
+  const double listed = update->dt;
   gather(update->dt);
   for (int tries = 1; !solve(update->dt); tries++) {
     begin_again(shorter(update->dt, tries));
+    check_way_back(listed - update->dt);
     gather(update->dt);
   }
   now.done_dt = update->dt;
@@ -405,6 +407,17 @@ Liquid::Matrix<true> FixLiquidFlow::HostRoom::matrix(const Liquid::CloseRows<tru
   if (entries.size() < close.rows * close.width) entries.resize(close.rows * close.width);
   if (used.size() < close.rows) used.resize(close.rows);
   return {close, entries.data(), used.data()};
+}
+
+double FixLiquidFlow::HostRoom::bytes() const
+{
+  return sizeof(double) * double(entries.capacity()) +
+         sizeof(int) * double(partners.capacity() + sizes.capacity() + used.capacity());
+}
+
+double FixLiquidFlow::memory_usage()
+{
+  return FixFoamTravelling::memory_usage() + room.bytes();
 }
 
 /* ----------------------------------------------------------------------

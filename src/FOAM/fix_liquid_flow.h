@@ -47,6 +47,7 @@ class FixLiquidFlow : public FixFoamTravelling {
   void post_run() override;
   void reset_dt() override {}
   double compute_vector(int) override;
+  double memory_usage() override;
   int pack_forward_comm(int, int *, double *, int, int *) override;
   void unpack_forward_comm(int, int, double *) override;
 
@@ -117,6 +118,7 @@ class FixLiquidFlow : public FixFoamTravelling {
     std::vector<int> partners, sizes, used;
     Liquid::CloseRows<true> close(size_t rows, size_t width);
     Liquid::Matrix<true> matrix(const Liquid::CloseRows<true> &);
+    double bytes() const;
   } room;
   int row_width = 96;                                // of neighbors: as many as there were so far
   std::vector<std::pair<int, std::string>> given;    // variables with the state of the start
@@ -134,7 +136,7 @@ class FixLiquidFlow : public FixFoamTravelling {
   Liquid::Solved solved;
   bool without_level = false;    // of the pressure: there is no surface.  Then it is its mean:
   double level = 0.0;
-  bool told_of_gas = false;
+  bool told_of_gas = false, told_of_lists = false;
 
   double longest_step(double nu);
   void limit_step();
@@ -148,6 +150,7 @@ class FixLiquidFlow : public FixFoamTravelling {
   void check_particles() const;
   void check_others() const;
   void check_lists() const;
+  void check_way_back(double dt);
 };
 
 }    // namespace LAMMPS_NS

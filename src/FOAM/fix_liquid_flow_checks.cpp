@@ -86,6 +86,28 @@ void FixLiquidFlow::check_lists() const
     error->warning(FLERR, "Fix liquid/flow: particles do not see those that neigh_modify excludes");
 }
 
+// Lists that were made in a step are those of where it would have led.  If it is done again, shorter by dt, particles come back
+// from there.
+
+void FixLiquidFlow::check_way_back(double dt)
+{
+  if (told_of_lists || neighbor->ago > 0) return;
+  double mine[] = {speeds.speed, gas ? gas->fastest() : 0.0, totals.gas}, all[3];
+  MPI_Allreduce(mine, all, 3, MPI_DOUBLE, MPI_MAX, world);
+  const double fastest = std::sqrt(all[0]), other = std::sqrt(std::fmax(all[0], all[1]));
+  const double apart = dt * (fastest + other);
+  const double room_for_gas =
+      pair->reach() -
+      Liquid::SUPPORT * Liquid::smoothing_length(set.h0, Liquid::liquid_fraction(all[2]));
+  if (apart <= neighbor->skin + room_for_gas) return;
+  told_of_lists = true;
+  if (comm->me == 0)
+    error->warning(FLERR,
+                   "Fix liquid/flow: step {} is done again with a timestep of {}: particles that "
+                   "come apart by {} on the way back may miss each other, the skin is {}",
+                   update->ntimestep, update->dt, apart, neighbor->skin);
+}
+
 // The operators take each particle for dr^3 of liquid; a bubble is none.
 
 void FixLiquidFlow::check_particles() const

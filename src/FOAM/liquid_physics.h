@@ -180,9 +180,10 @@ FOAM_FUNCTION double dissipation(double Re, double nu_S, double S)
 
 // ---------------------------------------------------------------------- step
 
-// No particle goes further than 0.2 h in a step, nor does momentum diffuse further [K23 (3.15)].  The former is one of accuracy, and may
-// be chosen; with the latter at 0.4 a flow at Re = 1 grows without end.  Two limits are ours: for a liquid that begins at
-// rest, nothing falls further than that either; and no bubble leaves what is around it, 2 h, within a few steps.
+// No particle goes further than 0.2 h in a step, nor does momentum diffuse further [K23 (3.15)].  The former limit is of
+// accuracy, and may be chosen; with the latter at 0.4 a flow at Re = 1 grows without end.  Two limits are ours: for a
+// liquid that begins at rest, nothing falls further than that either; and no bubble leaves what is around it, 2 h,
+// within a few steps.
 
 inline constexpr double COURANT = 0.2, COURANT_OF_VISCOSITY = 0.2, COURANT_OF_BUBBLES = 0.5;
 

@@ -77,8 +77,8 @@ FOAM_FUNCTION double separation(const B &b, const double *x, int j, const Which 
   return square;
 }
 
-// Who has a place in the row: a neighbor, or one of whose images is.  Each is written down, and the next takes its place if it is
-// not: a branch that nobody foresees would cost more than all else here.
+// Who has a place in the row: a neighbor, and one of whose images is.  All are written, and one that is not a neighbor is written
+// over by the next: a branch, which no processor foresees here, would cost more than all else.
 
 template <class B, class List, bool BY_ROWS> struct FindClose {
   static constexpr const char *NAME = "liquid: find neighbors";
@@ -109,7 +109,7 @@ template <class B, class List, bool BY_ROWS> struct FindClose {
 };
 
 // Neighbors of a particle, and images of them and, if the row is one of close ones, of itself: visit(j, r_i - r_j, distance,
-// image).  One whose image is a neighbor comes first, be it ever so far: kernels are 0 there.
+// image).  A particle of which an image is a neighbor is visited, too, before it: kernels are 0 there.
 
 template <bool CLOSE, class Row, class B, class Visit>
 FOAM_ALWAYS_INLINE void neighbors(const Row &row, const B &b, const Walls &walls, double h,

@@ -72,6 +72,26 @@ thermo 1
 """
 
 
+SLIDING = """
+units         lj
+atom_style    sphere 1
+boundary      p p p
+comm_modify   vel yes
+lattice       sc 1000 origin 0.5 0.5 0.5
+region        box block 0 1 0 1 0 1 units box
+create_box    1 box
+create_atoms  1 box
+set           group all diameter 0.1 density $(6/PI)
+displace_atoms all random 0.02 0.02 0.02 77 units box
+variable      ux atom 8*(z>0.5)-4
+velocity      all set v_ux 0.0 0.0
+pair_style    liquid/sph 0.1
+pair_coeff    * *
+neighbor      $({skin}*0.1) bin
+fix           l all liquid/flow 1e6 none les none solver 1.0e-10 {most} courant 0.9
+""" + COUNT
+
+
 def calm(dt=1.0, most=1000):
     """A scene that is pushed the harder the longer, so that the solver has more to do in a later step than before."""
     text = tank(create=MANY, gas="surface yes langevin 7 breakup 5", dt=dt,
@@ -110,6 +130,17 @@ dump_modify d sort id format float %.17g
     for column in ("x", "y", "z", "vx", "vy", "vz"):
         ours, theirs = (result.dump(f"dump.{n}")[0][column] for result in (cut, short))
         assert ours == pytest.approx(theirs, rel=0, abs=1e-9), column
+
+
+@pytest.mark.parametrize("skin, warnings", [(0.6, 1), (2.4, 0)])
+def test_way_back_of_a_repeated_step(lmp, skin, warnings):
+    """Lists are those of where the longer step would have led. Halves of the cube that pass each other go there by
+    0.9 h each; half of it they come back, 1.2 spacings for a pair."""
+    needed = lmp(SLIDING.format(skin=skin, most=1000) + "run 2\n").thermo[0]["f_l[3]"]
+    assert needed[2] > needed[:2].max()
+    result = lmp(SLIDING.format(skin=skin, most=int(needed[2]) - 1) + "run 2\n")
+    assert result.thermo[0]["f_l[9]"][-1] > 0
+    assert len(re.findall("may miss each other, the skin is", result.screen)) == warnings
 
 
 def test_a_pressure_that_is_never_found(lmp):
