@@ -31,7 +31,8 @@ using namespace FixConst;
    fix ID group-ID bubble/nve keyword value ...
 ------------------------------------------------------------------------- */
 
-FixBubbleNVE::FixBubbleNVE(LAMMPS *lmp, int narg, char **arg) : FixFoamTravelling(lmp, narg, arg)
+FixBubbleNVE::FixBubbleNVE(LAMMPS *lmp, int narg, char **arg)
+    : FixFoamTravelling(lmp, narg, arg), out(lmp)
 {
   using Value = FoamInput::Value;
   FoamInput input(error, "Fix bubble/nve", narg - 3, arg + 3);
@@ -104,6 +105,7 @@ void FixBubbleNVE::setup(int)
 
 void FixBubbleNVE::initial_integrate(int)
 {
+  out.begin_step();
   advance();
 }
 
@@ -138,7 +140,10 @@ void FixBubbleNVE::finish()
 
 void FixBubbleNVE::end_of_step()
 {
-  if (tolerance > 0.0) set_timestep(next_step());
+  if (!(tolerance > 0.0)) return;
+  const double step = h;
+  set_timestep(next_step());
+  out.schedule_time_dumps(step, h);
 }
 
 void FixBubbleNVE::set_timestep(double step)

@@ -19,6 +19,7 @@ FixStyle(bubble/nve,FixBubbleNVE);
 #include "bubble_step.h"
 #include "fix_bubble_rise.h"
 #include "fix_foam_travelling.h"
+#include "foam_output.h"
 
 #include "atom.h"
 #include "update.h"
@@ -85,6 +86,7 @@ class FixBubbleNVE : public FixFoamTravelling {
   FoamColumns columns{all_columns, "steps of bubbles", NCOLUMNS, TRAVELS};
 
  private:
+  FoamOutput out;
   class PairBubbleCollision *pair = nullptr;
   FixBubbleRise *rise = nullptr;    // none: no liquid
   double tolerance = 0.0;           // 0: the timestep is fixed

@@ -48,7 +48,7 @@ void FixFoamIntegrate::initial_integrate(int)
     gas->changed = false;
   }
   driver.step(*this);
-  out.schedule_time_dumps(MIN(driver.h, largest_step()));
+  out.schedule_time_dumps(update->dt, MIN(driver.h, largest_step()));
   if (gas && gas->has_dead() && out.due(this)) next_reneighbor = update->ntimestep;
 }
 

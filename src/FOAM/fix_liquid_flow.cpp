@@ -35,7 +35,8 @@ const std::vector<std::string> FixLiquidFlow::FACES{"xlo", "xhi", "ylo", "yhi", 
    fix ID group-ID liquid/flow RE FR keyword value ...
 ------------------------------------------------------------------------- */
 
-FixLiquidFlow::FixLiquidFlow(LAMMPS *lmp, int narg, char **arg) : FixFoamTravelling(lmp, narg, arg)
+FixLiquidFlow::FixLiquidFlow(LAMMPS *lmp, int narg, char **arg)
+    : FixFoamTravelling(lmp, narg, arg), out(lmp)
 {
   using Value = FoamInput::Value;
   FoamInput input(error, "Fix liquid/flow", narg - 3, arg + 3);
@@ -212,6 +213,7 @@ void FixLiquidFlow::find_pressure()
 
 void FixLiquidFlow::initial_integrate(int)
 {
+  out.begin_step();
   begin_run();
   advance(update->dt);
 }
@@ -302,6 +304,7 @@ void FixLiquidFlow::end_of_step()
 {
   now.next_dt = choose_step();
   foam_set_timestep(lmp, now.next_dt);
+  out.schedule_time_dumps(now.done_dt, now.next_dt);
   if (!(update->atime + now.next_dt > update->atime))
     error->all(FLERR, "Fix liquid/flow: the timestep at step {} is {}: time {} does not go on",
                update->ntimestep, now.next_dt, update->atime);

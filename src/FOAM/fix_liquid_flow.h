@@ -17,6 +17,7 @@ FixStyle(liquid/flow,FixLiquidFlow);
 #define LMP_FIX_LIQUID_FLOW_H
 
 #include "fix_foam_travelling.h"
+#include "foam_output.h"
 #include "liquid_operators.h"
 #include "liquid_solver.h"
 #include "pair_liquid_sph.h"
@@ -131,6 +132,7 @@ class FixLiquidFlow : public FixFoamTravelling {
     double limit = 0.0;      // of the next one, after a step was repeated; 0: none
     double repeated = 0.0;
   } now;
+  FoamOutput out;
   Liquid::GatherTotals totals;
   Liquid::SpeedTotals speeds;    // of this rank
   Liquid::Solved solved;

@@ -27,21 +27,22 @@ void FoamOutput::begin_step()
 }
 
 // Dumps by time are written at the first step that has reached their time.  LAMMPS asks for
-// per-bubble energies before a step is known; where it did not, the dump waits a step.
+// per-bubble energies before a step is known; where it did not, the dump waits a step.  LAMMPS itself loses a dump for
+// good once a step has passed some of its times.
 
-void FoamOutput::schedule_time_dumps(double next_step)
+void FoamOutput::schedule_time_dumps(double step, double next_step)
 {
   if (!output->any_time_dumps) return;
   const bigint now = update->ntimestep;
   const bool foreseen = dump_foreseen == now;
   const double after_next = update->atime + next_step;
-  const double slack = 1.0e-6 * update->dt;    // as in LAMMPS
+  const double slack = 1.0e-6 * step;    // as in LAMMPS
 
   output->next_dump_any = output->next_time_dump_any = MAXBIGINT;
   for (int d = 0; d < output->ndump; d++) {
     if (output->mode_dump[d] == 1) {
       // LAMMPS, after a dump, goes on to the next multiple, which this step may have passed
-      const double every = output->every_time_dump[d], before = update->atime - update->dt;
+      const double every = output->every_time_dump[d], before = update->atime - step;
       if (every > 0.0 && output->last_dump[d] == now - 1)
         output->next_time_dump[d] = (std::floor((before + slack) / every) + 1.0) * every;
 

@@ -26,7 +26,7 @@ class FoamOutput : protected Pointers {
 
   void begin_run() { run_is_over = false; }
   void begin_step();
-  void schedule_time_dumps(double next_step);    // after a step; of what length will the next be
+  void schedule_time_dumps(double step, double next_step);    // after a step; lengths of both
   bool due(const Fix *asking) const;    // will anything else look at the bubbles in this step
 
   void stop_run(const char *style, const std::string &reason);    // after this step

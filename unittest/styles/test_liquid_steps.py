@@ -181,6 +181,26 @@ def test_another_run_may_need_shorter_steps(lmp):
     assert second["f_l[2]"][0] == pytest.approx(0.2 * H / 3, rel=1e-12)
 
 
+@pytest.mark.parametrize("what", ["x", "c_p"])
+@pytest.mark.parametrize("every", [0.002, 0.02, 0.1])
+def test_snapshots_by_time(lmp, every, what):
+    """Each time has its snapshot, at the first step that has reached it, also where steps pass several of them: the
+    first are ten times as long as the shortest of these times."""
+    result = lmp(tank(dt=1.0, velocity=DRIFT, more=f"""{LIMITS}
+compute p all liquid/particle p
+fix push water addforce 0 0 -0.05
+dump d all custom 1 dump id {what}
+dump_modify d every/time {every} time yes
+run 30
+"""))
+    times = result.thermo[0]["Time"]
+    assert np.diff(times).max() > 1.5 * np.diff(times).min()
+    passed = np.floor(times / every + 1e-9)
+    due = [0.0, *times[1:][np.diff(passed) > 0]]
+    assert len(due) > 2
+    assert [frame.time for frame in result.dump("dump")] == pytest.approx(due, rel=1e-5)
+
+
 def test_a_run_without_set_up_has_the_step_that_is_due(lmp):
     """run N pre no begins with the timestep of the user, who may not think of it."""
     result = lmp(tank(velocity=DRIFT, dt=1.0, more=LIMITS + "timestep 5.0\nrun 3\nrun 3 pre no\n"))
