@@ -13,7 +13,8 @@ from run import LIMITED, PRECISION, SETTINGS, SHORT_STEPS
 from turbulence import beltrami_row
 from written import Rows, complete, folder, is_complete, of_sizes, report
 
-KINDS = {"ma": ("s", "C1", "Ma"), "tol": ("^", "C2", "solver"), "dt": ("v", "C3", "longest step")}
+KINDS = {"ma": ("s", "C1", "Ma"), "tol": ("^", "C2", "solver"), "dt": ("v", "C3", "longest step"),
+         "courant": ("D", "C4", "courant")}
 
 
 def kind(name: str) -> str:
