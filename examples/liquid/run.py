@@ -3,7 +3,7 @@
 LAMMPS' own SPH, what precision costs; figures by plot.py.
 
     python3 run.py --lmp lmp --out DIR                        a quarter of an hour on one core
-    python3 run.py --lmp lmp --out DIR --full                 finer ones too: an hour
+    python3 run.py --lmp lmp --out DIR --full                 finer ones too: five hours
     python3 run.py --lmp lmp --out DIR --only vortex tank     some of them
 
 A run that is complete is not done again, so that this can be stopped and started; --dry-run lists the runs. Times are
@@ -140,7 +140,7 @@ class Run:
 def sizes(group: str, full: bool) -> list[int]:
     """Particles along a unit of length."""
     few, more = {"vortex": ([12, 16, 24], [32, 48]), "beltrami": ([8, 12, 16, 24], [32, 48]),
-                 "turbulence": ([24], [32]), "pushed": ([24], [32]), "dambreak": ([8, 12, 16, 24], [32, 48]),
+                 "turbulence": ([24], [32, 64]), "pushed": ([24], [32, 64]), "dambreak": ([8, 12, 16, 24], [32, 48]),
                  "rheo": ([8, 12, 16], [24]), "pairs": ([8, 16], [24, 32]),
                  "iterations": ([8, 12, 16, 24], [32, 48, 64])}[group]
     return few + more if full else few
