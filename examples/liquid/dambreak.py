@@ -28,7 +28,7 @@ MEASURED = (         # time and front
     (1.76, 2.78), (1.93, 3.00), (2.07, 3.22), (2.24, 3.44), (2.40, 3.67), (2.54, 3.89), (2.71, 4.11))
 WAY = (1.67, 2.78)   # of the front, for its speed
 TITLES = {"projection": "this package", "explicit": "sph/taitwater", "rheo": "RHEO"}
-PAIR_TITLES = {"projection": "this package", "quick": "quick", "explicit": "sph/taitwater"}
+PAIR_TITLES = {**TITLES, "quick": "quick"}
 MARKS = {"projection": "o-", "explicit": "s--", "rheo": "^:"}
 
 

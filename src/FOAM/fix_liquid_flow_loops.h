@@ -71,9 +71,9 @@ void FixLiquidFlow::find_close_in(Space &space, const Rows &near, Room &room)
   using List = std::remove_const_t<decltype(list)>;
   for (;;) {
     const auto close = room.close(atom->nlocal, row_width);
-    space.for_all(near.nrows(PairLiquidSPH::LIQUID),
-                  FindClose<B, List, Room::BY_ROWS>{space.bubbles(), list, walls,
-                                                    space.column(work, H), close});
+    space.for_all(
+        near.nrows(PairLiquidSPH::LIQUID),
+        FindClose<B, List, Room::BY_ROWS>{space.bubbles(), list, space.column(work, H), close});
     const Foam::FoamMax all =
         space.template totals<Foam::FoamMax>(atom->nlocal, LongestRow{close.size});
     const int longest = static_cast<int>(all);

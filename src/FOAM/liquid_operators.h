@@ -333,7 +333,7 @@ template <class B, class List, class Matrix> struct Assemble : Loop<B, List> {
     double difference[3][3] = {}, diagonal = -compressed, heads = 0.0, of_pair = 0.0;
     int count = 0, last = -1;
     auto close = [&]() {
-      if (last >= 0 && last != i) matrix.put(i, count++, of_pair);
+      if (last >= 0 && last != i && !surface) matrix.put(i, count++, of_pair);
     };
     this->neighbors_of(row, [&](int j, const double *r, double distance, const auto &image) {
       const double V = this->volume(j), s = W.slope_over_r(distance);

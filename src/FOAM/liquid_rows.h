@@ -77,14 +77,13 @@ FOAM_FUNCTION double separation(const B &b, const double *x, int j, const Which 
   return square;
 }
 
-// Who has a place in the row: a neighbor, and one of whose images is.  All are written, and one that is not a neighbor is written
-// over by the next: a branch, which no processor foresees here, would cost more than all else.
+// All of a list are written, and one that is not a neighbor is written over by the next: a branch, which no processor foresees
+// here, would cost more than all else.  Between walls no image is nearer than its particle: whose image is a neighbor, is one.
 
 template <class B, class List, bool BY_ROWS> struct FindClose {
   static constexpr const char *NAME = "liquid: find neighbors";
   B b;
   List list;
-  Walls walls;
   const double *h;
   CloseRows<BY_ROWS> close;
   FOAM_FUNCTION void operator()(int n) const
@@ -92,24 +91,18 @@ template <class B, class List, bool BY_ROWS> struct FindClose {
     const auto row = list.row(n);
     const int i = row.i;
     const double x[3] = {b.x(i, 0), b.x(i, 1), b.x(i, 2)}, reach = SUPPORT * h[i];
-    const NearWalls near(walls, x, reach);
     int size = 0;
     row.for_each([&](int j, auto) {
       double r[3];
-      bool is = separation(b, x, j, Itself(), r) < reach * reach;
-      if (near.axes)
-        for (int axes = 1; axes < 8; axes++)
-          if ((axes & near.axes) == axes)
-            is |= separation(b, x, j, image_across(near, axes), r) < reach * reach;
       close.put(i, size, j);
-      size += is;
+      size += separation(b, x, j, Itself(), r) < reach * reach;
     });
     close.size[i] = size;
   }
 };
 
 // Neighbors of a particle, and images of them and, if the row is one of close ones, of itself: visit(j, r_i - r_j, distance,
-// image).  A particle of which an image is a neighbor is visited, too, before it: kernels are 0 there.
+// image).  All of a close row are visited, so that entries of the matrix have the places of their neighbors.
 
 template <bool CLOSE, class Row, class B, class Visit>
 FOAM_ALWAYS_INLINE void neighbors(const Row &row, const B &b, const Walls &walls, double h,

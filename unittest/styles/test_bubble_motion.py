@@ -313,6 +313,21 @@ def test_error_falls_with_tol(lmp, pair, more):
     assert errors[1] < errors[0] / 5 and errors[2] < errors[1] / 5 and errors[2] < 1e-4
 
 
+@pytest.mark.parametrize("every", [1e-6, 3e-4])
+def test_snapshots_by_time(lmp, every):
+    """Each time has its snapshot, at the first step that has reached it, also where a step passes hundreds of them."""
+    plane, n = tilted(20, 1.6 * R6)
+    result = lmp(text(pair="elastic spring viscous none lubrication no", wall=plane, rise=LIQUID, dt=1e-5,
+                      step="fix s all bubble/nve tol 1e-3 dtmax 1e-3", run="run 60",
+                      before=f"dump t all custom 1 times id x\ndump_modify t every/time {every} time yes"),
+                 data([0, 0, 0], R6, [[0, 0, 0.13]]))
+    times = np.array([frame.time for frame in result.dump("dump")])
+    assert len(times) == 61 and np.diff(times).max() > 100e-6
+    due = [0.0, *times[1:][np.diff(np.floor(times / every + 1e-9)) > 0]]
+    assert len(due) > 5
+    assert [frame.time for frame in result.dump("times")] == pytest.approx(due, rel=1e-5)    # as printed
+
+
 # ---- extremes -----------------------------------------------------------------------------------
 
 def energy_of(t, wall):

@@ -198,7 +198,7 @@ run 30
     passed = np.floor(times / every + 1e-9)
     due = [0.0, *times[1:][np.diff(passed) > 0]]
     assert len(due) > 2
-    assert [frame.time for frame in result.dump("dump")] == pytest.approx(due, rel=1e-5)
+    assert [frame.time for frame in result.dump("dump")] == pytest.approx(due, rel=1e-5)    # as printed
 
 
 def test_a_run_without_set_up_has_the_step_that_is_due(lmp):
