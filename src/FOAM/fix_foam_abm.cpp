@@ -15,11 +15,11 @@ using namespace LAMMPS_NS;
 
 FixFoamABM::FixFoamABM(LAMMPS *lmp, int narg, char **arg) : FixFoamIntegrate(lmp, narg, arg)
 {
-  settings(narg, arg, {{"scheme", [&](const FoamInput::Value &v) {
-                          driver.control.scheme = v.one_of({"standard", "source"}) == 1
-                                                      ? Foam::Scheme::SOURCE
-                                                      : Foam::Scheme::STANDARD;
-                        }}});
+  settings(narg, arg, 1.0e-5, {{"scheme", [&](const FoamInput::Value &v) {
+                                  driver.control.scheme = v.one_of({"standard", "source"}) == 1
+                                                              ? Foam::Scheme::SOURCE
+                                                              : Foam::Scheme::STANDARD;
+                                }}});
   if (drift_removed && driver.control.scheme == Foam::Scheme::SOURCE)
     error->all(FLERR, "Fix {}: drift remove goes with scheme standard, not with scheme source",
                style);

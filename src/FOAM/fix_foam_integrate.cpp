@@ -66,11 +66,11 @@ Foam::Trial FixFoamIntegrate::attempt(double step, bool first)
   return {error, totals.moved, list.margin()};
 }
 
-// forces beyond the neighbor list are not trusted: list the start anew, or step less far
+// forces beyond the neighbor list are not trusted: list the start anew, with a wider skin, or step less far
 
 bool FixFoamIntegrate::extend_reach()
 {
-  if (list.is_new()) {
+  if (list.is_new() && !list.widen(totals.moved, mean_radius())) {
     list.outlisted++;
     return false;
   }
@@ -107,7 +107,9 @@ void FixFoamIntegrate::accept(double step)
   if (paths) add_to_path();
   if (gas) remove_small();    // lets bubbles grow a little: adds to totals.ahead
 
+  if (list.is_new()) list.widen(totals.moved * MIN(driver.h, largest_step()) / step, mean_radius());
   list.state_has_changed();
+  list.step_taken();
   if (shear) shear->box_goes_on(step);
   evaluated_later = 0.0;
   {
@@ -344,7 +346,7 @@ void FixFoamIntegrate::post_neighbor()
   if (gas && pair->hub.population.bubbles != bubbles()) take_population();
 }
 
-// Bubbles that have outgrown the cutoffs need new ones.  A step that writes a restart file
+// Bubbles that have outgrown the cutoffs, or another skin, need new ones.  A step that writes a restart file
 // also leaves the order of bubbles and the list just as a run from that file will find them,
 // so that it goes on bit by bit.
 
@@ -355,7 +357,8 @@ void FixFoamIntegrate::pre_exchange()
   const bool restart_due = update->ntimestep == output->next_restart;
   double mine = largest_radius(), largest;
   MPI_Allreduce(&mine, &largest, 1, MPI_DOUBLE, MPI_MAX, world);
-  if (restart_due || pair->outgrown(largest)) {
+  const bool skin_due = list.skin_is_due();
+  if (restart_due || skin_due || pair->outgrown(largest)) {
     list.with_checks([&] { pair->refresh(); });
   }
   if (restart_due) {
@@ -382,6 +385,8 @@ void FixFoamIntegrate::post_run()
   set_timestep(dt_given);    // minimizers, for one, step by it
   list.give_checks_back();
   list.warn(style, driver.accepted - accepted_then);
+  list.end_run(style);
+  pair->hub.skin = list.skin_now;
   lag.keep_last();
 }
 
@@ -406,6 +411,12 @@ double FixFoamIntegrate::largest_step() const
   else if (grows())
     largest = Foam::time_of_scaled(gas->K, 1.0, pair->hub.record.rin);
   return MIN(largest, stable_step());
+}
+
+double FixFoamIntegrate::mean_radius() const
+{
+  const FoamHub::Population &now = pair->hub.population;    // empty where radii stay
+  return now.bubbles > 0.0 ? now.radius_sum / now.bubbles : pair->hub.record.rin;
 }
 
 double FixFoamIntegrate::compute_vector(int n)

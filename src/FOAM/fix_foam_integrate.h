@@ -87,7 +87,8 @@ class FixFoamIntegrate : public FixFoamTravelling {
 
   // settings, from the command: keywords of all schemes, and own ones with what to do with a value
 
-  void settings(int, char **, const FoamInput::Keywords &own);
+  void settings(int, char **, double tolerance,
+                const FoamInput::Keywords &own);    // auto: that one
 
   Foam::Variable variable = Foam::Variable::VOLUME;
   Foam::Norm norm = Foam::Norm::RMS;
@@ -248,6 +249,7 @@ class FixFoamIntegrate : public FixFoamTravelling {
   void take_image(int i, const double *x_before);
   void take_population();
   void remove_small();
+  double mean_radius() const;
   bool history_at_accept() const;
   void set_timestep(double);
   [[noreturn]] void no_solution();    // of the drag

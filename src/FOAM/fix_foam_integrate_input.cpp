@@ -45,11 +45,13 @@ FixFoamIntegrate::FixFoamIntegrate(LAMMPS *lmp, int narg, char **arg)
   columns.use(atom->nmax);
 }
 
-void FixFoamIntegrate::settings(int narg, char **arg, const FoamInput::Keywords &own)
+void FixFoamIntegrate::settings(int narg, char **arg, double tolerance,
+                                const FoamInput::Keywords &own)
 {
   using Value = FoamInput::Value;
   FoamInput input(error, fmt::format("Fix {}", style), narg - 3, arg + 3);
-  driver.control.tolerance = input.argument("tolerance").number(FoamInput::ABOVE, 0.0);
+  const Value given = input.argument("tolerance");
+  driver.control.tolerance = given.is("auto") ? tolerance : given.number(FoamInput::ABOVE, 0.0);
 
   FoamInput::Keywords all{
       {"dt0",
@@ -77,6 +79,11 @@ void FixFoamIntegrate::settings(int narg, char **arg, const FoamInput::Keywords 
       {"growth",
        [&](const Value &v) {
          driver.control.growth = v.number(FoamInput::ABOVE, 1.0);
+         driver.control.growth_at_start = 0.0;
+       }},
+      {"skin",
+       [&](const Value &v) {
+         list.follows = v.one_of({"fixed", "auto"}) == 1;
        }},
       {"path",
        [&](const Value &v) {
@@ -120,6 +127,7 @@ void FixFoamIntegrate::init()
                "Fix {} needs a neighbor skin > 0, in which bubbles may move and grow: "
                "see the neighbor command",
                style);
+  list.begin_run(pair->hub.skin);
 
   gas = nullptr;
   followers.clear();

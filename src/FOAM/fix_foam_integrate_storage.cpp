@@ -55,11 +55,12 @@ bool FixFoamIntegrate::wanted(const FoamColumns &its) const
 
 std::vector<double *> FixFoamIntegrate::progress()
 {
-  return {
-      &driver.time,       &driver.h,    &driver.h_before,   &driver.h_last, &driver.accepted,
-      &driver.rejected,   &evaluations, &driver.error_last, &bubbles_last,  &lag.known,
-      &dt_given,          &record.rin,  &record.ain,        &record.tau,    &record.removed_bubbles,
-      &record.removed_gas};
+  return {&driver.time,        &driver.h,          &driver.h_before,
+          &driver.h_last,      &driver.accepted,   &driver.rejected,
+          &evaluations,        &driver.error_last, &bubbles_last,
+          &lag.known,          &dt_given,          &record.rin,
+          &record.ain,         &record.tau,        &record.removed_bubbles,
+          &record.removed_gas, &list.skin_now};
 }
 
 void FixFoamIntegrate::write_restart(FILE *fp)

@@ -15,7 +15,8 @@ FixFoamRKC::FixFoamRKC(LAMMPS *lmp, int narg, char **arg) : FixFoamIntegrate(lmp
 {
   using Foam::Chebyshev;
   using Value = FoamInput::Value;
-  settings(narg, arg,
+  driver.control.growth_at_start = 1000.0;    // a scheme without history takes any ratio of steps
+  settings(narg, arg, 1.0e-2,
            {{"stages",
              [&](const Value &v) {
                scheme.stages_given =

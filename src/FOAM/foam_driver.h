@@ -61,7 +61,7 @@ struct Driver {
         continue;
       }
 
-      h = control.next(step, error_last, refused);
+      h = control.next(step, error_last, refused, accepted);
       if (control.accepts(error_last)) {
         problem.accept(step);
         time += step;

@@ -48,6 +48,8 @@ class FoamHub : protected Pointers {
   };
   Population population;
 
+  double skin = 0.0;    // that steps of the last run needed; 0: none yet
+
   // Who is a bubble: the group of the foam's fixes
 
   int groupbit = Foam::GROUP_ALL;

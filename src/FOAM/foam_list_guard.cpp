@@ -28,7 +28,56 @@ void FoamListGuard::built()
   if (domain->box_change) find_corners(corners_listed);
   box_listed = FoamBoxShape(domain);
   list_is_new = true;
+  steps = 0;
 }
+
+/* ----------------------------------------------------------------------
+   the width of the skin
+------------------------------------------------------------------------- */
+
+void FoamListGuard::begin_run(double skin_before)
+{
+  if (skin_now == 0.0) skin_now = skin_before;
+  if (skin_given == 0.0 || neighbor->skin != skin_now)
+    skin_given = neighbor->skin;    // by a command
+  if (!follows || skin_now < skin_given) skin_now = skin_given;
+  neighbor->skin = skin_wanted = skin_now;
+}
+
+void FoamListGuard::end_run(const char *style)
+{
+  if (skin_now > skin_given && comm->me == 0)
+    utils::logmesg(lmp,
+                   "Fix {}: steps have widened the skin of neighbor lists from {:.4g} to {:.4g}\n",
+                   style, skin_given, skin_now);
+  neighbor->skin = skin_given;
+}
+
+// Half of a skin, less what a moving box takes of it, is good for the way that a bubble goes in one step; more than that, so
+// that it is not spent by what the next step goes further.  Ghosts of comm_style tiled reach no further than the box,
+// so that a skin cannot be widened there.
+
+bool FoamListGuard::widen(double way, double widest)
+{
+  constexpr double MARGIN = 1.5;
+  if (!follows || comm->style == Comm::TILED) return false;
+  const double least = skin_now + 2.0 * (way - margin());
+  if (!(least < widest)) return false;
+  if (least > skin_now) skin_wanted = MIN(MARGIN * least, widest);
+  return true;
+}
+
+bool FoamListGuard::skin_is_due()
+{
+  constexpr bigint LONG = 20;    // steps that a list lasts
+  constexpr double NARROWER = 0.8;
+  if (skin_wanted == skin_now && steps >= LONG) skin_wanted = MAX(skin_given, NARROWER * skin_now);
+  const bool due = skin_wanted != skin_now;
+  neighbor->skin = skin_now = skin_wanted;
+  return due;
+}
+
+/* ---------------------------------------------------------------------- */
 
 Foam::AffineMap FoamListGuard::moved_by_box(double later) const
 {
@@ -121,5 +170,5 @@ void FoamListGuard::warn(const char *style, double steps) const
     error->warning(FLERR,
                    "Fix {}: {} of {:.0f} steps were tried in vain, since bubbles went further than "
                    "half the skin of {}: a larger skin saves them, see the neighbor command",
-                   style, outlisted, steps, neighbor->skin);
+                   style, outlisted, steps, skin_now);
 }

@@ -33,6 +33,17 @@ class FoamListGuard : protected Pointers {
   double margin() const;    // how far a bubble may have moved and grown since
   void rebuild();           // out of turn
 
+  // The skin follows the steps, up to some width, if it may: it is widened for a step that goes, or will go, further than
+  // a new list, and narrowed when lists last long.  After a run LAMMPS has again the one of the neighbor command.
+
+  bool follows = true;
+  double skin_now = 0.0;    // kept in restarts; 0: none yet
+  void begin_run(double skin_before);
+  void end_run(const char *style);
+  bool widen(double way, double widest);    // that a step goes; false: it may not
+  void step_taken() { steps++; }
+  bool skin_is_due();    // before an exchange: neighbor->skin has changed
+
   // The integrator knows when the list is outdated; LAMMPS' own look at it in each step is spared
   // during a run.
 
@@ -52,6 +63,8 @@ class FoamListGuard : protected Pointers {
   double corners_listed[8][3] = {};    // of the box, when the list was built
   FoamBoxShape box_listed;
   bool list_is_new = false;
+  double skin_given = 0.0, skin_wanted = 0.0;
+  bigint steps = 0;        // since the list was built
   int delay_given = -1;    // neigh_modify delay, which does not count during a run
 
   void find_corners(double (*)[3]) const;

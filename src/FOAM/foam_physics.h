@@ -308,13 +308,14 @@ template <int D> FOAM_FUNCTION double radius_rate(double Vdot, double R)
   return Vdot / surface<D>(R);
 }
 
-// A bubble is removed when smaller than allowed, or used up.
+// A bubble is removed when smaller than allowed, or used up; or was used up within a step (R = 0), whatever
+// is left of its gas at the end.
 // Survivors of a removal take the removed gas in proportion to their own,
 // V -> V (1 + Vexcess / sum V): the factor of V, and of q = R^D
 
 FOAM_FUNCTION bool vanished(double R, double q, double smallest)
 {
-  return R < smallest || !(q > 0.0);
+  return R < smallest || !(R > 0.0) || !(q > 0.0);
 }
 
 FOAM_FUNCTION double redistribution_factor(double Vexcess, double Vsurvivors)

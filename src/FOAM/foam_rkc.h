@@ -62,6 +62,7 @@ template <class Fields, class Rates> struct NextStage {
     FoamMax furthest{work.bubble[i]};
     furthest.raise(y.reach(i));
     work.bubble[i] = furthest;
+    const bool used_up = y.used_up(i);
     double f[Fields::MOST];
     rates(i, f);
     y.each([&](const auto &field) {
@@ -71,6 +72,7 @@ template <class Fields, class Rates> struct NextStage {
       field.put(i, advance(field.start(i), last, work.field[n][i], f[n], field.rate(i), h, c));
       work.field[n][i] = last;
     });
+    if (used_up) y.keep_used_up(i);
     y.after_stage(i, f);
   }
 };

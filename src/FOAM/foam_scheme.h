@@ -26,6 +26,7 @@
 //   y.after_start(i)        the rates of the start have been evaluated anew
 //   y.reach(i)              how far bubble i is from where evaluations were prepared for: a number or a FoamLength
 //   y.alive(i), y.seed(i)   takes part; a number of its own, the same on any number of ranks
+//   y.used_up(i)            no longer takes part at this stage, nor, after y.keep_used_up(i), at the next
 //
 //   field.number            its place in arrays of MOST numbers
 //   field.value(i), field.put(i, value)

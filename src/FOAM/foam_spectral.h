@@ -218,6 +218,7 @@ class SpectralRadius {
   static constexpr double MARGIN = 1.1;         // an underestimate by less does no harm
   static constexpr int STEPS = 25, FEW = 10;    // between estimates; if a step was rejected
   static constexpr int ITERATIONS = 50;         // of an estimate
+  static constexpr int FEWEST = 6;    // of one that starts anywhere: it may change little at first
   static constexpr double CONVERGED = 0.02;     // relative change of the last iteration
   static constexpr double FALL = 0.9;           // of the estimate since the last one, at most
   static constexpr double GONE = 0.5;           // or more: what made it as large is gone
@@ -263,6 +264,7 @@ void SpectralRadius::estimate(System &system, const Driver &driver, bool compare
   }
 
   const double estimated_then = estimated;
+  const int fewest = known ? 1 : FEWEST;
 
   // In a large foam the mode that relaxes fastest is that of a few bubbles, and the rest, which makes up
   // the size of the direction, hides it for long; by the largest component it shows sooner.
@@ -278,7 +280,7 @@ void SpectralRadius::estimate(System &system, const Driver &driver, bool compare
     if (known && !(estimated > 0.0))
       take(AnyDirection{system.fields()});    // the bubbles that the last one moved are gone
     known = false;
-    if (std::fabs(estimated - before) <= CONVERGED * estimated) break;
+    if (n + 1 >= fewest && std::fabs(estimated - before) <= CONVERGED * estimated) break;
   }
 
   // The iteration may miss the mode that the last one had found: in a foam that goes on as it was, the

@@ -148,6 +148,12 @@ template <int D, class B> struct Fields : State<B> {
   }
   FOAM_FUNCTION FoamLength reach(int i) const { return from_listed(i, this->b.radius(i)); }
   FOAM_FUNCTION bool alive(int i) const { return this->b.radius(i) > 0.0; }
+
+  // A bubble used up at some stage does not come back at a later one. There its rate is 0, so that the end of
+  // the step would find it with a little gas of either sign, and it might last for another step.
+
+  FOAM_FUNCTION bool used_up(int i) const { return this->b.radius(i) == 0.0; }
+  FOAM_FUNCTION void keep_used_up(int i) const { this->b.radius(i) = 0.0; }
   FOAM_FUNCTION double seed(int i) const { return this->b.tag(i); }
 
   // how far a bubble has moved and grown since the list was built

@@ -102,22 +102,29 @@ struct StepControl {
   double safety = 0.9;    // share of the step that just meets the tolerance
   double growth = 1.9;    // most that a step may be longer than the last
 
+  // the same for the first STARTS steps, whose length goes back to a guess, dt0; 0: as later
+
+  double growth_at_start = 0.0;
+  static constexpr int STARTS = 4;
+
   static constexpr double SHRINK = 0.2, HALF = 0.5;
 
   bool accepts(double error) const { return error <= tolerance; }    // NaN is refused
 
   // after_rejection: the same step has been refused before and must not grow again
+  // before: steps accepted before this one
 
-  double next(double h, double error, bool after_rejection) const
+  double next(double h, double error, bool after_rejection, double before = STARTS) const
   {
     const bool accepted = accepts(error);
     if (scheme == Scheme::SOURCE) return accepted ? growth * h : HALF * h;
+    const double most = growth_at_start > 0.0 && before < STARTS ? growth_at_start : growth;
     double factor = SHRINK;
     if (error == 0.0)
       factor = growth;
     else if (std::isfinite(error))
       factor = safety * std::cbrt(tolerance / error);
-    if (!(factor < growth)) factor = growth;
+    if (!(factor < most)) factor = most;
     if (!(factor > SHRINK)) factor = SHRINK;
     if (accepted && after_rejection && factor > 1.0) factor = 1.0;
     if (!accepted && factor > safety) factor = safety > SHRINK ? safety : SHRINK;

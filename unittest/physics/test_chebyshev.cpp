@@ -60,7 +60,7 @@ Linear linear(const Chebyshev &c, double z)
 TEST(Chebyshev, StagesOfThreeInClosedForm)
 {
   // T_2 = 2 w^2 - 1, T_3 = 4 w^3 - 3 w
-  const double w = 1.0 + 2.0 / 13.0 / 9.0, w1 = (12.0 * w * w - 3.0) / (24.0 * w);
+  const double w = 1.0 + 1.0 / 9.0, w1 = (12.0 * w * w - 3.0) / (24.0 * w);
   const double b2 = 4.0 / (16.0 * w * w), first = 12.0 * w * w - 3.0;
   const double b3 = 24.0 * w / (first * first);
   const Chebyshev c(3);
@@ -87,9 +87,9 @@ TEST(Chebyshev, StagesAreInOrderAndTheLastIsTheEnd)
     EXPECT_NEAR(c[s].place, 1.0, 1.0e-12);
     for (int j = 2; j <= s; j++) EXPECT_GT(c[j].place, c[j - 1].place) << s << " " << j;
     EXPECT_GT(c[1].place, 0.0);
-    // without damping c_j = (j^2 - 1) / (s^2 - 1); damping moves it by less than epsilon / 10
+    // without damping c_j = (j^2 - 1) / (s^2 - 1); damping moves it a little
     for (int j = 2; j <= s; j++)
-      EXPECT_NEAR(c[j].place, (j * j - 1.0) / (s * s - 1.0), 0.0154) << s << " " << j;
+      EXPECT_NEAR(c[j].place, (j * j - 1.0) / (s * s - 1.0), 0.029) << s << " " << j;
   }
 }
 
@@ -112,8 +112,8 @@ TEST(Chebyshev, LinearRatesAreExactAtEveryStageButTheFirst)
 
 // ---------------------------------------------------------------------- stability
 
-// Up to stable(s) decaying components are damped: |P(z)| stays below 1 by the damping epsilon / 3,
-// 5 %, once z has left 0, where P = exp z
+// Up to stable(s) decaying components are damped: |P(z)| stays below 1 by the damping,
+// 22 to 25 %, once z has left 0, where P = exp z
 
 TEST(Chebyshev, StableUpToTheBound)
 {
@@ -126,19 +126,19 @@ TEST(Chebyshev, StableUpToTheBound)
       const double z = -bound * n / points;
       const double P = std::fabs(linear(c, z).end);
       largest = std::fmax(largest, P);
-      if (z < -0.1) inside = std::fmax(inside, P);
+      if (z < -0.3) inside = std::fmax(inside, P);
     }
     EXPECT_LE(largest, 1.0) << s;
-    EXPECT_LT(inside, 0.96) << s;
+    EXPECT_LT(inside, 0.785) << s;
   }
 }
 
 TEST(Chebyshev, BoundIsNotGivenAway)
 {
-  // the polynomial leaves [-1, 1] within 20 % (s = 3) or 7 % (others) beyond
+  // the polynomial leaves [-1, 1] within 27 % (s = 3) or 11 % (others) beyond
   for (const int s : COUNTS) {
     const Chebyshev c(s);
-    const double beyond = -(s == 3 ? 1.20 : 1.07) * Chebyshev::stable(s);
+    const double beyond = -(s == 3 ? 1.27 : 1.11) * Chebyshev::stable(s);
     EXPECT_GT(std::fabs(linear(c, beyond).end), 1.0) << s;
   }
 }
@@ -229,14 +229,14 @@ TEST(Chebyshev, EstimateIsOfOrderThreeWhichStepControlCountsOn)
 
 TEST(Chebyshev, EstimateIsUpToTwiceTheErrorOfSlowComponents)
 {
-  // y' = y: 1.73 (s = 5) to 1.93 (s = 3) times the error, 1.82 for many stages, as with the estimate
+  // y' = y: 1.82 (s = 5) to 2.00 (s = 3) times the error, 1.92 for many stages, as with the estimate
   // of [SSV98] at the end of the step
   for (int s = Chebyshev::FEWEST; s <= Chebyshev::MOST; s++) {
     const double h = -1.0e-2;    // rounding, s^2 EPS / h^3, is 1e-5 at most
     const Linear step = linear(Chebyshev(s), h);
     const double ratio = std::fabs(step.estimate / (step.end - std::exp(h)));
-    EXPECT_GT(ratio, 1.7) << s;
-    EXPECT_LT(ratio, 2.0) << s;
+    EXPECT_GT(ratio, 1.8) << s;
+    EXPECT_LT(ratio, 2.01) << s;
   }
 }
 

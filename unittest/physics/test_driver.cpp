@@ -78,6 +78,8 @@ struct TwoFields {
   void after_start(int) const {}
   double reach(int i) const { return std::fabs(numbers[0].value[i]); }
   bool alive(int) const { return true; }
+  bool used_up(int) const { return false; }
+  void keep_used_up(int) const {}
   double seed(int i) const { return i + 1; }
 };
 

@@ -273,6 +273,22 @@ TEST(StepControl, FactorIsBounded)
   EXPECT_DOUBLE_EQ(c.next(1.0, 1.0e+30, false), StepControl::SHRINK);
 }
 
+TEST(StepControl, FirstStepsMayGrowMore)
+{
+  // dt0 is a guess: what the error allows counts from there on, up to a limit of its own
+  StepControl c = control();
+  const double tiny = 1.0e-4 * 1.0e-6;    // allows 100 times the step
+  EXPECT_DOUBLE_EQ(c.next(1.0, tiny, false, 0), c.growth);
+  c.growth_at_start = 1000.0;
+  for (int before = 0; before < StepControl::STARTS; before++)
+    EXPECT_NEAR(c.next(1.0, tiny, false, before), 0.9 * 100.0, 100.0 * EPS);
+  EXPECT_DOUBLE_EQ(c.next(1.0, tiny, false, StepControl::STARTS), c.growth);
+  EXPECT_DOUBLE_EQ(c.next(1.0, 1.0e-4 * 1.0e-15, false, 0), c.growth_at_start);
+  EXPECT_DOUBLE_EQ(c.next(1.0, 0.0, false, 0), c.growth);    // no error says nothing
+  EXPECT_DOUBLE_EQ(c.next(1.0, tiny, true, 0), 1.0);
+  EXPECT_DOUBLE_EQ(c.next(1.0, INFINITY, false, 0), StepControl::SHRINK);
+}
+
 TEST(StepControl, ErrorThatIsNoNumberShrinksTheStep)
 {
   const StepControl c = control();
