@@ -401,7 +401,7 @@ double FixFoamIntegrate::natural_time() const
   return grows() ? Foam::time_of_scaled(gas->K, 1.0, pair->hub.record.rin) : 1.0;
 }
 
-// by default, one unit of scaled time, or a thousand relaxation times at fixed radii
+// by default, the time in which a bubble of the mean radius coarsens, or a thousand relaxation times at fixed radii
 
 double FixFoamIntegrate::largest_step() const
 {
@@ -409,7 +409,7 @@ double FixFoamIntegrate::largest_step() const
   if (dt_limit > 0.0)
     largest = dt_limit;
   else if (grows())
-    largest = Foam::time_of_scaled(gas->K, 1.0, pair->hub.record.rin);
+    largest = Foam::time_of_scaled(gas->K, 1.0, mean_radius());
   return MIN(largest, stable_step());
 }
 
