@@ -132,6 +132,28 @@ template <class Functor, class Value> struct FoamReduceBubbles {
   }
 };
 
+// On the host a thread has a slice of consecutive bubbles. It works with a copy of the functor, and of what it sums,
+// that no pointer leads to: neither has to be read again after each number that is written (see FoamHost).
+
+template <class Functor, class Value> struct FoamSlices {
+  Functor functor;
+  int n, slice;
+  FOAM_FLAT KOKKOS_INLINE_FUNCTION void operator()(int t) const
+  {
+    const Functor own = functor;
+    const int begin = t * slice, end = begin + slice < n ? begin + slice : n;
+    for (int i = begin; i < end; i++) own(i);
+  }
+  FOAM_FLAT KOKKOS_INLINE_FUNCTION void operator()(int t, Value &all) const
+  {
+    const Functor own = functor;
+    const int begin = t * slice, end = begin + slice < n ? begin + slice : n;
+    Value mine;
+    for (int i = begin; i < end; i++) own(i, mine);
+    all.join(mine);
+  }
+};
+
 // The space in which KOKKOS styles run: see FoamHost
 
 template <class DeviceType> class FoamKokkos : protected Pointers {
@@ -199,12 +221,14 @@ template <class DeviceType> class FoamKokkos : protected Pointers {
 
   template <class Functor> void for_all(int n, const Functor &functor) const
   {
-    Kokkos::parallel_for(Functor::NAME, Kokkos::RangePolicy<DeviceType>(0, n), functor);
+    loop(Functor::NAME, n, functor);
   }
   template <class Functor> void for_each(int n, const Functor &functor) const
   {
-    Kokkos::parallel_for(Functor::NAME, Kokkos::RangePolicy<DeviceType>(0, n),
-                         FoamEachBubble<Functor>{functor, members(groupbit)});
+    if (groupbit == Foam::GROUP_ALL)
+      loop(Functor::NAME, n, functor);
+    else
+      loop(Functor::NAME, n, FoamEachBubble<Functor>{functor, members(groupbit)});
   }
 
   // the host waits for these
@@ -212,9 +236,11 @@ template <class DeviceType> class FoamKokkos : protected Pointers {
   template <class Value, class Functor> Value reduce(int n, const Functor &functor) const
   {
     Value mine;
-    Kokkos::parallel_reduce(Functor::NAME, Kokkos::RangePolicy<DeviceType>(0, n),
-                            FoamReduceBubbles<Functor, Value>{functor, members(groupbit)},
-                            FoamJoin<Value, Kokkos::HostSpace>(&mine));
+    const FoamJoin<Value, Kokkos::HostSpace> join(&mine);
+    if (groupbit == Foam::GROUP_ALL)
+      loop(Functor::NAME, n, functor, join);
+    else
+      loop(Functor::NAME, n, FoamReduceBubbles<Functor, Value>{functor, members(groupbit)}, join);
     return mine;
   }
   template <class Totals, class Functor> Totals totals(int n, const Functor &functor) const
@@ -266,6 +292,35 @@ template <class DeviceType> class FoamKokkos : protected Pointers {
   int groupbit = Foam::GROUP_ALL;      // of the bubbles
 
  private:
+  // On the host over slices, one of each thread. n: bubbles, or chunks of them
+
+  template <class Functor> static void loop(const char *name, int n, const Functor &functor)
+  {
+    using Range = Kokkos::RangePolicy<DeviceType>;
+    if constexpr (ON_HOST) {
+      const int threads = slices(n), slice = threads > 0 ? (n + threads - 1) / threads : 0;
+      Kokkos::parallel_for(name, Range(0, threads), FoamSlices<Functor, int>{functor, n, slice});
+    } else
+      Kokkos::parallel_for(name, Range(0, n), functor);
+  }
+  template <class Functor, class Join>
+  static void loop(const char *name, int n, const Functor &functor, const Join &join)
+  {
+    using Range = Kokkos::RangePolicy<DeviceType>;
+    if constexpr (ON_HOST) {
+      const int threads = slices(n), slice = threads > 0 ? (n + threads - 1) / threads : 0;
+      Kokkos::parallel_reduce(name, Range(0, threads),
+                              FoamSlices<Functor, typename Join::value_type>{functor, n, slice},
+                              join);
+    } else
+      Kokkos::parallel_reduce(name, Range(0, n), functor, join);
+  }
+  static int slices(int n)
+  {
+    const int threads = DeviceType().concurrency();
+    return n < threads ? n : threads;
+  }
+
   uint64_t written;
   static constexpr int SLOTS = 2, SLOT_SIZE = 4;
   Kokkos::View<double[SLOTS * SLOT_SIZE], DeviceType> sums_there;

@@ -366,9 +366,13 @@ template <int D, unsigned WHAT, bool CHUNKS, class Loop> struct SummedContacts {
   {
     Contacts<WHAT, CHUNKS, Loop>{loop, chunk, nlocal, clear}(n);
     const int begin = n * chunk, end = begin + chunk < nlocal ? begin + chunk : nlocal;
+    const auto b = loop.b;
+    const double *const area = loop.sums.area;
     const Foam::Members member = loop.sums.members;
+    Foam::FreeSurface mine;
     for (int i = begin; i < end; i++)
-      if (member(i)) all.template add<D>(law, loop.b, i, loop.sums.area, walls);
+      if (member(i)) mine.template add<D>(law, b, i, area, walls);
+    all.join(mine);
   }
 };
 
