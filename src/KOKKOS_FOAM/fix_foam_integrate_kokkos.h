@@ -83,14 +83,17 @@ class FixFoamIntegrateKokkos : public FoamTravellingKokkos<Style, DeviceType> {
     if (!this->pair->refresh_ghosts(PairFoam::Ghosts::EVERYTHING)) this->comm->forward_comm();
     timer->stamp(Timer::COMM);
 
-    if (!pair->fuse_force_clear_flag || modify->n_pre_force) clear_forces();
+    // the pair style alone writes forces of owned bubbles over, and leaves those of ghosts 0
+
+    const bool writes_over = pair->fuse_force_clear_flag && !modify->n_pre_force;
+    if (!writes_over) clear_forces();
     if (modify->n_pre_force) modify->pre_force(vflag);
     timer->stamp(Timer::MODIFY);
     this->atomKK->sync(pair->execution_space, pair->datamask_read);
     pair->compute(eflag, vflag);
     this->atomKK->modified(pair->execution_space, pair->datamask_modify);
     timer->stamp(Timer::PAIR);
-    if (this->force->newton) {
+    if (this->force->newton && !writes_over) {
       Kokkos::fence();
       this->comm->reverse_comm();
       timer->stamp(Timer::COMM);

@@ -62,6 +62,17 @@ template <class DeviceType, bool EVERYTHING> struct RefreshGhosts {
   }
 };
 
+template <class B> struct ClearGhostForces {
+  static constexpr const char *NAME = "foam: clear forces of ghosts";
+  B b;
+  int nlocal;
+  KOKKOS_INLINE_FUNCTION void operator()(int n) const
+  {
+    for (int k = 0; k < 3; k++) b.f(nlocal + n, k) = 0.0;
+  }
+};
+template <class B> ClearGhostForces(B, int) -> ClearGhostForces<B>;
+
 template <class DeviceType> struct CopyFromOwners {
   static constexpr const char *NAME = "foam: given velocities of ghosts";
   FoamGhosts<DeviceType> g;

@@ -18,6 +18,7 @@
 #include "force.h"
 #include "kokkos.h"
 #include "memory_kokkos.h"
+#include "modify.h"
 #include "neigh_request.h"
 #include "neighbor.h"
 
@@ -58,9 +59,10 @@ template <class DeviceType> void PairDurianFoamKokkos<DeviceType>::init_style()
                "Pair style durian/foam/kk with comm_style tiled needs forward communication on the "
                "host: use package kokkos comm/forward no");
 
-  // Forces of owned bubbles only, written and not added to: then LAMMPS need not clear them first
+  // Forces of owned bubbles only, written and not added to: then nobody need clear them first. Those of ghosts are 0
+  // with each list, and stay so: there is nothing to send back.
 
-  fuse_force_clear_flag = !force->newton && !utils::strmatch(force->pair_style, "^hybrid");
+  fuse_force_clear_flag = !utils::strmatch(force->pair_style, "^hybrid");
 }
 
 // other coefficients in mid-run, by fix adapt
@@ -114,6 +116,8 @@ template <class DeviceType> void PairDurianFoamKokkos<DeviceType>::take_list()
   if (rows_known && rows_ncalls == neighbor->ncalls && rows_lastcall == neighbor->lastcall) return;
   make_rows();
   make_owners();
+  if (force->newton && fuse_force_clear_flag)
+    space.for_all(atom->nghost, ClearGhostForces{space.bubbles(), atom->nlocal});
   rows_known = true;
   rows_ncalls = neighbor->ncalls;
   rows_lastcall = neighbor->lastcall;
@@ -412,7 +416,7 @@ void PairDurianFoamKokkos<DeviceType>::gather_in(const Law &chosen, unsigned wha
   using B = typename FoamKokkos<DeviceType>::Bubbles;
   using Rows = FoamRows<DeviceType>;
   const int nlocal = atom->nlocal;
-  const bool clear = fuse_force_clear_flag;
+  const bool clear = fuse_force_clear_flag && !modify->n_pre_force;
   const Foam::ContactSums sums = contact_sums(space);
 
   auto run = [&]<bool CHUNKS>() {
