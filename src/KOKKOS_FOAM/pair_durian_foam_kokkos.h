@@ -84,11 +84,15 @@ template <class DeviceType> class PairDurianFoamKokkos : public PairDurianFoam, 
   bool owners_known = false;    // for the present list
   bool ghosts_fresh = false;    // just refreshed in everything
 
+  double bin_width = 0.0;    // chosen here; 0: LAMMPS' own or users'
+
   bool sigma0_known = false;    // there
   Kokkos::View<double *, DeviceType> sigma0_there;
   DAT::ttransform_kkacc_1d k_eatom;
   DAT::ttransform_kkacc_1d_6 k_vatom;
 
+  void choose_bins();
+  bool has_own_bins() const;
   void make_rows();
   void make_owners();
   FoamGhosts<DeviceType> ghosts() const;
