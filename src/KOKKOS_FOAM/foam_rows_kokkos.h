@@ -139,15 +139,30 @@ template <class DeviceType, class Near> struct FillRows : ListedPairs<DeviceType
 };
 
 // Threads fill a row in any order, and LAMMPS may number ghosts in any order on a device: in order
-// of partners' IDs, the sums of a row come out the same every time.
+// of partners' IDs, the sums of a row come out the same every time. Pairs within the range of forces come first:
+// most of them still are when forces are wanted, so that a processor guesses well which are.
 
 template <class DeviceType, class Near> struct SortRows : ListedPairs<DeviceType, Near> {
   static constexpr const char *NAME = "foam: sort rows";
+  using B = typename FoamKokkos<DeviceType>::Bubbles;
+  Foam::ComesNear<B, Foam::ReachOfContact> touch;
   KOKKOS_INLINE_FUNCTION void operator()(int i) const
   {
     const int begin = this->rows.first(i), end = this->rows.first(i + 1);
-    sort(begin, begin + this->rows.shared(i));
-    sort(begin + this->rows.shared(i), end);
+    arrange(i, begin, begin + this->rows.shared(i));
+    arrange(i, begin + this->rows.shared(i), end);
+  }
+  KOKKOS_INLINE_FUNCTION void arrange(int i, int begin, int end) const
+  {
+    int middle = begin;
+    for (int m = begin; m < end; m++) {
+      const int j = this->rows.partner(m);
+      if (!touch(i, j)) continue;
+      this->rows.partner(m) = this->rows.partner(middle);
+      this->rows.partner(middle++) = j;
+    }
+    sort(begin, middle);
+    sort(middle, end);
   }
   KOKKOS_INLINE_FUNCTION bool behind(int j, int k) const
   {
@@ -171,12 +186,12 @@ struct All {
 
 }    // namespace FoamMakeRows
 
-// tag: IDs, where they run
+// tag: IDs, where they run. range: of forces, in radii; 0: all pairs of a row in the order of IDs
 
 template <class DeviceType, class Near>
 void foam_make_rows(const FoamKokkos<DeviceType> &space, NeighList *list,
                     typename ArrayTypes<DeviceType>::t_tagint_1d tag, int nlocal, int nmax,
-                    int chunk, const Near &near, FoamRows<DeviceType> &rows)
+                    int chunk, double range, const Near &near, FoamRows<DeviceType> &rows)
 {
   using namespace FoamMakeRows;
   using Numbers = typename FoamRows<DeviceType>::Numbers;
@@ -205,7 +220,7 @@ void foam_make_rows(const FoamKokkos<DeviceType> &space, NeighList *list,
                            static_cast<size_t>(1.1 * total));
   pairs.rows = rows;
   space.for_each(list->inum, FillRows<DeviceType, Near>{pairs});
-  space.for_each(nlocal, SortRows<DeviceType, Near>{pairs});
+  space.for_each(nlocal, SortRows<DeviceType, Near>{pairs, {space.bubbles(), {range}, 0.0}});
 }
 
 }    // namespace LAMMPS_NS

@@ -52,7 +52,7 @@ template <class DeviceType> void PairBubbleCollisionKokkos<DeviceType>::request_
 template <class DeviceType> void PairBubbleCollisionKokkos<DeviceType>::take_list()
 {
   atomKK->sync(execution_space, TAG_MASK);
-  foam_make_rows(space, list, atomKK->k_tag.view<DeviceType>(), atom->nlocal, atom->nmax, 1,
+  foam_make_rows(space, list, atomKK->k_tag.view<DeviceType>(), atom->nlocal, atom->nmax, 1, 0.0,
                  comes_near(space.bubbles()), rows);
 }
 

@@ -155,7 +155,7 @@ template <class DeviceType> void PairDurianFoamKokkos<DeviceType>::make_rows()
   atomKK->sync(execution_space, TAG_MASK);
   const auto tag = atomKK->k_tag.view<DeviceType>();
   auto make = [&](const auto &near) {
-    foam_make_rows(space, list, tag, nlocal, atom->nmax, chunk, near, rows);
+    foam_make_rows(space, list, tag, nlocal, atom->nmax, chunk, range(), near, rows);
   };
   if (range() > 1.0)
     make(Foam::ComesNear<typename FoamKokkos<DeviceType>::Bubbles, Foam::ReachOfContact>{
