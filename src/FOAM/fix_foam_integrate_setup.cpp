@@ -24,6 +24,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 using namespace LAMMPS_NS;
 
@@ -141,15 +142,16 @@ void FixFoamIntegrate::check_bubbles()
                "boundary",
                style);
 
-  // q follows R where a command has changed R since the last run
+  // q follows R where a command has changed R since the last run, by more than the rounding of roots
 
+  constexpr double ROUNDING = 4.0 * std::numeric_limits<double>::epsilon();
   double *const q = columns[Q];
   for (int i = 0; i < atom->nlocal; i++) {
     if (!is_bubble(i)) continue;
     const double R = atom->radius[i];
     const double known =
         Foam::with_dimension(dim, [&]<int D>() { return Foam::radius_of<D>(variable, q[i]); });
-    if (known != R) q[i] = q_of(R);
+    if (!(std::fabs(known - R) <= ROUNDING * R)) q[i] = q_of(R);
   }
 }
 

@@ -76,7 +76,7 @@ template <class B> struct State {
 template <int D, class B> FOAM_FUNCTION void put_gas(const State<B> &s, int i, double q)
 {
   s.q[i] = q;
-  s.b.radius(i) = radius_of<D>(s.variable, q);
+  s.b.radius(i) = radius_near<D>(s.variable, q, s.b.radius(i));
 }
 
 template <int D, class B> struct Fields : State<B> {
@@ -117,7 +117,8 @@ template <int D, class B> struct Fields : State<B> {
     }
     FOAM_FUNCTION double measure(int i, double change) const
     {
-      return radius_of<D>(s.variable, s.q[i] + change) - s.b.radius(i);
+      const double R = s.b.radius(i);
+      return radius_near<D>(s.variable, s.q[i] + change, R) - R;
     }
     FOAM_FUNCTION double unit() const { return s.q_unit; }
   };
