@@ -284,7 +284,7 @@ template <class Space> Foam::State<typename Space::Bubbles> FixFoamIntegrate::st
   s.counts = gas != nullptr;
   s.grows = grows();
   s.variable = variable;
-  s.range = pair->range();
+  s.range = gas ? pair->range() : 0.0;
   s.box_moves = shear != nullptr;
   if (shear) s.listed_now = list.moved_by_box(evaluated_later);
   s.q_unit = Foam::with_dimension(

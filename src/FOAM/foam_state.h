@@ -57,7 +57,7 @@ template <class B> struct State {
   bool grows = false;     // gas is exchanged, radii change
   Variable variable = Variable::VOLUME;
   double q_unit = 1.0;    // dq / dR at the mean radius
-  double range = 1.0;     // of forces, in radii
+  double range = 0.0;     // of forces, in radii; 0 where radii do not change
 
   // a box that deforms under bubbles that go with it: where it has taken the places of the list to, and will have at
   // the end of the next step
@@ -185,7 +185,7 @@ template <int D, class B> struct Fields : State<B> {
  private:
   FOAM_FUNCTION double growth(double dR) const
   {
-    return this->counts && dR > 0.0 ? this->range * dR : 0.0;
+    return 0.5 * this->range * (dR + std::fabs(dR));    // range max(dR, 0), without a branch
   }
 };
 
