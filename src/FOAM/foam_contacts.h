@@ -80,8 +80,20 @@ struct ContactLoop {
                                  : coefficients.sigma0 + b.type(i) * (coefficients.ntypes + 1);
     const double sigma0 = coefficients.sigma0[coefficients.ntypes + 2];    // of types 1 and 1
     [[maybe_unused]] const bool member_i = s.members(i), others = s.members.mask;
+
+    // sums go on from what is there, so that each is made in the order of the pairs, of which rows i is
+
+    const bool forces_go_on = !ASSIGN || forces_add;
+    auto there = [&](unsigned flag, const double *sum) FOAM_INLINE_LAMBDA {
+      return !ASSIGN && gathers(flag) ? sum[i] : 0.0;
+    };
     double fi[3] = {}, vsum_i[3] = {};
-    double contacts_i = 0.0, area_i = 0.0, film_i = 0.0, espring_i = 0.0, edurian_i = 0.0;
+    if (gathers(FORCE) && forces_go_on)
+      for (int k = 0; k < D; k++) fi[k] = b.f(i, k);
+    for (int k = 0; k < D; k++) vsum_i[k] = there(VSUM, s.vsum[k]);
+    double contacts_i = there(CONTACTS, s.contacts), area_i = there(AREA, s.area),
+           film_i = there(FILM, s.film), espring_i = there(ENERGY, s.espring),
+           edurian_i = there(ENERGY, s.edurian);
 
     auto visit = [&](int j, auto both) FOAM_INLINE_LAMBDA {
       const double Rj = b.radius(j);
@@ -161,20 +173,15 @@ struct ContactLoop {
 
     if constexpr (ASSIGN) s.clear(i, wanted);
     if (gathers(FORCE))
-      for (int k = 0; k < 3; k++) {
-        if (ASSIGN && !forces_add)
-          b.f(i, k) = fi[k];
-        else if (k < D)
-          b.f(i, k) += fi[k];
-      }
-    if (gathers(CONTACTS)) s.contacts[i] += contacts_i;
+      for (int k = 0; k < (forces_go_on ? D : 3); k++) b.f(i, k) = fi[k];
+    if (gathers(CONTACTS)) s.contacts[i] = contacts_i;
     if (gathers(VSUM))
-      for (int k = 0; k < D; k++) s.vsum[k][i] += vsum_i[k];
-    if (gathers(FILM)) s.film[i] += film_i;
-    if (gathers(AREA)) s.area[i] += area_i;
+      for (int k = 0; k < D; k++) s.vsum[k][i] = vsum_i[k];
+    if (gathers(FILM)) s.film[i] = film_i;
+    if (gathers(AREA)) s.area[i] = area_i;
     if (gathers(ENERGY)) {
-      s.espring[i] += espring_i;
-      s.edurian[i] += edurian_i;
+      s.espring[i] = espring_i;
+      s.edurian[i] = edurian_i;
     }
   }
 };
