@@ -50,6 +50,26 @@ template <bool NEWTON> struct FoamHalfList {
   }
 };
 
+// The pairs of rows, one after the other
+
+struct FoamPairs {
+  std::vector<int> first, second;
+
+  template <class List> void take(int inum, const List &list)
+  {
+    first.clear();
+    second.clear();
+    for (int n = 0; n < inum; n++) {
+      const auto row = list.row(n);
+      row.for_each([&](int j, auto) {
+        first.push_back(row.i);
+        second.push_back(j);
+      });
+    }
+  }
+  double bytes() const { return sizeof(int) * double(first.capacity() + second.capacity()); }
+};
+
 // A copy of LAMMPS' list without the pairs that do not come near before the next one: a list by the cutoff of types has
 // several times as many.
 

@@ -11,6 +11,7 @@
 
 #include "foam_half_list.h"
 #include "foam_host.h"
+#include "foam_contact_blocks.h"
 #include "foam_contact_loops.h"
 
 #include "atom.h"
@@ -69,17 +70,23 @@ void PairDurianFoam::take_list()
     near_list.numneigh.clear();
     return;
   }
-  if (listed_ncalls == neighbor->ncalls && listed_lastcall == neighbor->lastcall) return;
-  listed_ncalls = neighbor->ncalls;
-  listed_lastcall = neighbor->lastcall;
+  if (near_made.of(neighbor)) return;
   near_list.take(list->inum, list->ilist, list->numneigh, list->firstneigh, atom->nlocal,
                  Foam::ComesNear<Foam::HostBubbles, Foam::ReachOfContact>{
                      FoamHost(lmp).bubbles(), {range()}, neighbor->skin});
 }
 
+bool PairDurianFoam::Made::of(const Neighbor *neighbor)
+{
+  const bool same = ncalls == neighbor->ncalls && lastcall == neighbor->lastcall;
+  ncalls = neighbor->ncalls;
+  lastcall = neighbor->lastcall;
+  return same;
+}
+
 double PairDurianFoam::memory_usage()
 {
-  return PairFoam::memory_usage() + near_list.bytes();
+  return PairFoam::memory_usage() + near_list.bytes() + pairs.bytes();
 }
 
 struct PairDurianFoam::Tally {
@@ -108,6 +115,21 @@ void PairDurianFoam::gather_in(const Law &chosen, unsigned what)
                     all ? list->firstneigh : near_list.firstneigh.data(), nlocal};
     const Foam::ContactLoop<D, WHAT, false, Law, Foam::HostBubbles, List, T> functor{
         space.bubbles(), half, chosen, coefficients(), sums, true, what};
+    using Blocks = Foam::ContactBlocks<D, WHAT, NEWTON, Law, Foam::HostBubbles>;
+    if constexpr (Blocks::POSSIBLE) {
+      if (foam_has_wide_vectors() && !sums.members.mask) {
+        if (!pairs_made.of(neighbor)) pairs.take(list->inum, half);
+        const int count = static_cast<int>(pairs.first.size());
+        return Blocks{space.bubbles(),
+                      pairs.first.data(),
+                      pairs.second.data(),
+                      count,
+                      nlocal,
+                      chosen,
+                      coefficients(),
+                      sums}();
+      }
+    }
     for (int n = 0; n < list->inum; n++) functor(n, tally);
   };
   using T = std::conditional_t<(WHAT & Foam::TALLY) != 0, Tally, Foam::NoTally>;
@@ -150,7 +172,7 @@ void PairDurianFoam::init_style()
                  "Pair style durian/foam: law {} is one of bubbles in 3D, but dimension is 2",
                  chosen.NAME);
   });
-  listed_ncalls = -1;
+  near_made = pairs_made = Made();
   PairFoam::init_style();
 }
 

@@ -56,8 +56,11 @@ class PairDurianFoam : public PairFoam {
   double **sigma0;    // per pair of types
 
   FoamShortList near_list;    // where the law acts beyond contact
-  bigint listed_ncalls = -1,
-         listed_lastcall = -1;    // the list it was made of, by LAMMPS' counters
+  FoamPairs pairs;            // for loops that take them in blocks
+  struct Made {               // what a list was made of, by LAMMPS' counters
+    bigint ncalls = -1, lastcall = -1;
+    bool of(const class Neighbor *);    // of LAMMPS' present list; from now on it is
+  } near_made, pairs_made;
 
   void allocate();
   void gather(unsigned what) override;
