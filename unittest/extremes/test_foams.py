@@ -103,7 +103,7 @@ def test_few(lmp, dim, n, integrator):
 def test_all_in_one_point(lmp, dim, gas, integrator):
     random = np.random.default_rng(3)
     R = radii(random, 40, 0.5)
-    scene = Scene(np.full((40, dim), 7.5), R, [100.0] * dim, integrator=integrator, K=gas, run=500)
+    scene = Scene(np.full((40, dim), 7.5), R, [100.0] * dim, integrator=integrator, K=gas, run=200)
     result = scene(lmp)
     x = last(result).array("x", "y", "z")
     assert np.ptp(x[:, 0]) > 3.0

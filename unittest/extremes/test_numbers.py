@@ -214,9 +214,12 @@ def test_many_steps_at_rest(lmp, integrator):
 
 @cases("integrator", INTEGRATORS)
 def test_many_steps_of_exchange(lmp, integrator):
-    """Gas goes round for as long: its sum stays."""
+    """Gas goes round for as long: its sum stays, but for the rounding of gas in a step, 1.1e-16 at most. Of the three
+    stages of rkc the last one takes the second 2.1 times and the first 0.9 times, and the second the first 2.2 times:
+    these may add up to 8.7 times that. Changes are alike in all steps, and so is the rounding."""
+    rounding = 1.1e-16 * (8.7 if "rkc" in integrator else 1.0)
     scene = anywhere(3, 12, 0.9, spread=0.05, integrator=integrator, K=1e-9, kappa=1.0, dtmax=0.1,
-                     run=MANY, every=MANY // 10, gas_limit=1e-16 * MANY)
+                     run=MANY, every=MANY // 10, gas_limit=rounding * MANY)
     result = scene(lmp)
     assert result.thermo[0]["Step"][-1] == MANY
     # gas moves, at rates of 5 % of K / R, and from rest on at those that there were: the radii are still
