@@ -70,9 +70,12 @@ Foam::Trial FixFoamIntegrate::attempt(double step, bool first)
 
 bool FixFoamIntegrate::extend_reach()
 {
-  if (list.is_new() && !list.widen(totals.moved, mean_radius())) {
-    list.outlisted++;
-    return false;
+  if (list.is_new()) {
+    const FoamBoxLater box(domain, shear ? step_tried : 0.0);    // as margin() was in attempt()
+    if (!list.widen(totals.moved, mean_radius())) {
+      list.outlisted++;
+      return false;
+    }
   }
   return_to_start();
   list.rebuild();
@@ -343,7 +346,10 @@ void FixFoamIntegrate::post_neighbor()
 
   // other fixes may just have put bubbles in or taken them out
 
-  if (gas && pair->hub.population.bubbles != bubbles()) take_population();
+  // and where a restart file is written, a mean has to be the sum in the order in which it will be taken from there
+
+  const bool restart_due = update->ntimestep == output->next_restart;
+  if (gas && (restart_due || pair->hub.population.bubbles != bubbles())) take_population();
 }
 
 // Bubbles that have outgrown the cutoffs, or another skin, need new ones.  A step that writes a restart file

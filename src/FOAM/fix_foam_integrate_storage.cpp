@@ -14,6 +14,7 @@
 
 #include "atom.h"
 #include "comm.h"
+#include "error.h"
 #include "update.h"
 
 using namespace LAMMPS_NS;
@@ -68,7 +69,7 @@ void FixFoamIntegrate::write_restart(FILE *fp)
   bubbles_last = bubbles();
   if (comm->me != 0) return;
   if (pair) record = pair->hub.record;
-  std::vector<double> values;
+  std::vector<double> values{double(progress().size())};
   for (const double *one : progress()) values.push_back(*one);
   const int size = static_cast<int>(values.size() * sizeof(double));
   fwrite(&size, sizeof(int), 1, fp);
@@ -78,7 +79,13 @@ void FixFoamIntegrate::write_restart(FILE *fp)
 void FixFoamIntegrate::restart(char *buf)
 {
   const auto *values = (const double *) buf;
-  for (double *one : progress()) *one = *values++;
+  const auto all = progress();
+  if (*values++ != double(all.size()))
+    error->all(FLERR,
+               "Fix {}: the restart file is of another version of this fix, which kept other "
+               "numbers: give the fix another ID, so that it begins anew",
+               style);
+  for (double *one : all) *one = *values++;
 
   // a file that is written in a run has the step just taken for the timestep
 

@@ -23,6 +23,11 @@
 
 using namespace LAMMPS_NS;
 
+FoamListGuard::~FoamListGuard()
+{
+  if (neighbor && skin_given > 0.0 && neighbor->skin == skin_now) neighbor->skin = skin_given;
+}
+
 void FoamListGuard::built()
 {
   if (domain->box_change) find_corners(corners_listed);
@@ -40,16 +45,16 @@ void FoamListGuard::begin_run(double skin_before)
   if (skin_now == 0.0) skin_now = skin_before;
   if (skin_given == 0.0 || neighbor->skin != skin_now)
     skin_given = neighbor->skin;    // by a command
-  if (!follows || skin_now < skin_given) skin_now = skin_given;
-  neighbor->skin = skin_wanted = skin_now;
+  if (!follows || comm->style == Comm::TILED || skin_now < skin_given) skin_now = skin_given;
+  neighbor->skin = skin_wanted = skin_then = skin_now;
 }
 
 void FoamListGuard::end_run(const char *style)
 {
-  if (skin_now > skin_given && comm->me == 0)
+  if (skin_now > skin_then && comm->me == 0)
     utils::logmesg(lmp,
                    "Fix {}: steps have widened the skin of neighbor lists from {:.4g} to {:.4g}\n",
-                   style, skin_given, skin_now);
+                   style, skin_then, skin_now);
   neighbor->skin = skin_given;
 }
 
@@ -62,8 +67,8 @@ bool FoamListGuard::widen(double way, double widest)
   constexpr double MARGIN = 1.5;
   if (!follows || comm->style == Comm::TILED) return false;
   const double least = skin_now + 2.0 * (way - margin());
-  if (!(least < widest)) return false;
-  if (least > skin_now) skin_wanted = MIN(MARGIN * least, widest);
+  if (!(least > skin_now && least < widest)) return false;
+  skin_wanted = MIN(MARGIN * least, widest);
   return true;
 }
 
@@ -90,10 +95,10 @@ Foam::AffineMap FoamListGuard::moved_by_box(double later) const
 
 double FoamListGuard::margin() const
 {
-  if (!domain->box_change) return 0.5 * neighbor->skin;
+  if (!domain->box_change) return 0.5 * skin_now;
   if (goes_with_box) {    // what counts is how bubbles move in it, and how near it brings them to each other
     const double strain = moved_by_box(0.0).strain(domain->dimension);
-    return MAX(0.0, 0.5 * (neighbor->skin - strain * neighbor->cutneighmax));
+    return MAX(0.0, 0.5 * (skin_now - strain * neighbor->cutneighmax));
   }
   double corners[8][3], first = 0.0, second = 0.0;
   find_corners(corners);
@@ -108,7 +113,7 @@ double FoamListGuard::margin() const
     } else
       second = MAX(second, d);
   }
-  return MAX(0.0, 0.5 * (neighbor->skin - (first + second)));
+  return MAX(0.0, 0.5 * (skin_now - (first + second)));
 }
 
 void FoamListGuard::find_corners(double (*corners)[3]) const
@@ -169,6 +174,6 @@ void FoamListGuard::warn(const char *style, double steps) const
   if (outlisted > 0.1 * steps && steps >= 10.0 && comm->me == 0)
     error->warning(FLERR,
                    "Fix {}: {} of {:.0f} steps were tried in vain, since bubbles went further than "
-                   "half the skin of {}: a larger skin saves them, see the neighbor command",
+                   "half the skin of {:.4g}: a larger skin saves them, see the neighbor command",
                    style, outlisted, steps, skin_now);
 }

@@ -23,6 +23,7 @@ namespace LAMMPS_NS {
 class FoamListGuard : protected Pointers {
  public:
   explicit FoamListGuard(LAMMPS *lmp) : Pointers(lmp) {}
+  ~FoamListGuard() override;    // LAMMPS has its skin again, also after a command that does no run
 
   void built();    // just now
   void state_has_changed() { list_is_new = false; }
@@ -63,8 +64,8 @@ class FoamListGuard : protected Pointers {
   double corners_listed[8][3] = {};    // of the box, when the list was built
   FoamBoxShape box_listed;
   bool list_is_new = false;
-  double skin_given = 0.0, skin_wanted = 0.0;
-  bigint steps = 0;        // since the list was built
+  double skin_given = 0.0, skin_wanted = 0.0, skin_then = 0.0;    // then: before the run
+  bigint steps = 0;                                               // since the list was built
   int delay_given = -1;    // neigh_modify delay, which does not count during a run
 
   void find_corners(double (*)[3]) const;

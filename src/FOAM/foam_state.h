@@ -237,7 +237,7 @@ template <int D, class B> struct Judge {
       all.bubbles += 1.0;
     } else if (vanished(R, q, smallest)) {
       all.removed += 1.0;
-      all.gas_removed += gas_content<D>(s.variable, q);
+      all.gas_removed += gas_content<D>(s.variable, s.variable == Variable::RADIUS ? R : q);
     } else {
       all.bubbles += 1.0;
       all.radii += R;

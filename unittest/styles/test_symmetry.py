@@ -310,6 +310,22 @@ def test_restart_is_bitwise(bitwise_lmp, name, way, ranks):
                 assert table[column][row] == pytest.approx(rows[step][column], rel=SAME), column
 
 
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_restart_where_the_mean_radius_limits_the_step(bitwise_lmp, ranks):
+    """A mean is a sum in some order, which is that of bubbles in the file where one is written."""
+    x, R, v, box = foam(2, 20, seed=11)
+    keywords = dict(integrator="rkc", step="100 dt0 0.4", gas="0.3 0.1 rmin 0.3", every=1)
+    a = bitwise_lmp(case(2, after="restart 4 state.*", run="run 8", **keywords),
+                    files={"data": data_file([box] * 2, x, R, v)}, ranks=ranks)
+    text = continued(integrator="rkc", step="100 dt0 0.4", gas="0.3 0.1 rmin 0.3")
+    text = text.replace("read_restart  state", "read_restart  state.4").replace("thermo        10", "thermo 1")
+    b = bitwise_lmp(text.replace(f"run           {SECOND}", "run 4"), directory=a.directory, ranks=ranks)
+    h = a.thermo[0]["f_step[2]"]
+    assert h[8] > 1.1 * h[5]    # as the mean radius grows
+    assert np.array_equal(h[5:], b.thermo[0]["f_step[2]"][1:])
+    assert np.array_equal(a.thermo[0]["Atoms"][5:], b.thermo[0]["Atoms"][1:])
+
+
 @pytest.mark.parametrize("name, ranks", [("static", 1), ("static", 2), ("neighbor", 2),
                                          ("source", 1), ("neighbor without drift", 1),
                                          ("rkc", 1)])
