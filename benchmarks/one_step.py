@@ -69,9 +69,9 @@ class Foam:
             run           2000000000 post no
             unfix         halt""")
         self.bubbles = int(self.lmp.get_natoms())
-        # values of fix foam/rkc: 2 length, 7 stages, 8 spectral radius, of which 1.1 times is used
+        # values of fix foam/rkc: 2 length, 8 stages, 9 spectral radius, of which 1.1 times is used
         self.length, self.stages, self.spectral = (
-            self.lmp.extract_fix("step", LMP_STYLE_GLOBAL, LMP_TYPE_VECTOR, k) for k in (1, 6, 7))
+            self.lmp.extract_fix("step", LMP_STYLE_GLOBAL, LMP_TYPE_VECTOR, k) for k in (1, 7, 8))
         low, high = self.lmp.extract_box()[:2]
         self.box = (np.array(high) - np.array(low))[:self.dim]
         x, radius = self.arrays("x", "radius")
@@ -161,7 +161,7 @@ def rkc_and_estimate(foam, y, f0, h):
     """Order 2, as fix foam/rkc: Sommeijer, Shampine, Verwer, J. Comput. Appl. Math. 88, 315 (1998).
     Also the state and its estimated error, 0.8 (Y_0 - Y_{s-1}) + 0.4 c h (F_0 + F_{s-1}) over c^3:
     see src/FOAM/foam_chebyshev.h, where all formulae are."""
-    epsilon, s = 2 / 13, 3
+    epsilon, s = 1, 3
     while 2 / 3 * (1 - 2 / 15 * epsilon) * (s * s - 1) < h * 1.1 * foam.spectral:
         s += 1
     w0 = 1 + epsilon / s ** 2

@@ -344,9 +344,8 @@ void FixFoamIntegrate::post_neighbor()
 
   check_ghosts();
 
-  // other fixes may just have put bubbles in or taken them out
-
-  // and where a restart file is written, a mean has to be the sum in the order in which it will be taken from there
+  // Other fixes may just have put bubbles in or taken them out.  Where a restart file is written, a mean has to be the
+  // sum in the order in which it will be taken from there.
 
   const bool restart_due = update->ntimestep == output->next_restart;
   if (gas && (restart_due || pair->hub.population.bubbles != bubbles())) take_population();

@@ -58,9 +58,9 @@ void FoamListGuard::end_run(const char *style)
   neighbor->skin = skin_given;
 }
 
-// Half of a skin, less what a moving box takes of it, is good for the way that a bubble goes in one step; more than that, so
-// that it is not spent by what the next step goes further.  Ghosts of comm_style tiled reach no further than the box,
-// so that a skin cannot be widened there.
+// Half of a skin, less what a moving box takes of it, is good for the way that a bubble goes in one step; more than
+// that, so that it is not spent by what the next step goes further.  Ghosts of comm_style tiled reach no further than
+// the box, so that a skin cannot be widened there.
 
 bool FoamListGuard::widen(double way, double widest)
 {

@@ -34,8 +34,8 @@ class FoamListGuard : protected Pointers {
   double margin() const;    // how far a bubble may have moved and grown since
   void rebuild();           // out of turn
 
-  // The skin follows the steps, up to some width, if it may: it is widened for a step that goes, or will go, further than
-  // a new list, and narrowed when lists last long.  After a run LAMMPS has again the one of the neighbor command.
+  // The skin follows the steps, up to some width, if it may: it is widened for a step that goes, or will go, further
+  // than a new list, and narrowed when lists last long.  After a run LAMMPS has again the one of the neighbor command.
 
   bool follows = true;
   double skin_now = 0.0;    // kept in restarts; 0: none yet
