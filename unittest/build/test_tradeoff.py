@@ -158,8 +158,9 @@ def test_single_steps_have_their_orders(tmp_path):
     text = (tmp_path / "steps-2d-100.txt").read_text()
     found = [float(word) for word in re.search(r"^p 0\.016.*", text, re.M)[0].split()[4:]]
     # Euler, explicit 2 to 4, Chebyshev, rkc, extrapolated, ROS2, estimate. A contact that opens in one
-    # of the four steps that are averaged shows in the highest order (4.55 for 5): not looked at
+    # of the four steps that are averaged shows in the highest order (4.55 for 5): not looked at. Errors of order 4 are
+    # 7e-14 in the shortest steps, and rounding, some 1e-14, adds up to 14 % of that: 0.1 of an order over a factor of 4
     expected = [2, 3, 4, 5, 2, 3, 4, 3, 3]
     for p, order in list(zip(found, expected, strict=True)):
-        assert abs(p - order) < 0.1 or order == 5
+        assert abs(p - order) < (0.1 if order < 4 else 0.2) or order == 5
     assert (tmp_path / "steps-2d-100.png").stat().st_size > 10_000
