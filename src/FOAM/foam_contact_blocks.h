@@ -23,7 +23,7 @@
 
 #if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && defined(__GLIBC__) && \
     defined(__NO_MATH_ERRNO__) && defined(__NO_TRAPPING_MATH__) &&                           \
-    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && !defined(__CUDACC__)
 #define FOAM_WIDE_VECTORS __attribute__((target_clones("avx512f", "avx2", "default")))
 inline bool foam_has_wide_vectors()
 {
@@ -62,13 +62,14 @@ FOAM_WIDE_VECTORS void evaluate_contacts(ContactBlock &c, int n, const Law &law)
   }
 }
 
-// Pairs of bubbles first[p] and second[p], in the order of rows.  Without NEWTON a ghost has no share.
+// Pairs of bubbles first[p] and second[p], in the order of rows.  The second has its share if it is one of those from
+// begin to end: any other has its pairs in rows of its own, or is a ghost whose sums nobody asks for.
 
-template <int D, unsigned WHAT, bool NEWTON, class Law, class B> struct ContactBlocks {
+template <int D, unsigned WHAT, class Law, class B> struct ContactBlocks {
   static constexpr bool POSSIBLE = (WHAT & FORCE) && !(WHAT & ~(FORCE | FILM | AREA));
   B b;
   const int *first, *second;
-  int count, nlocal;
+  int count, begin, end;
   Law law;
   Coefficients coefficients;
   ContactSums sums;    // of all particles: they are bubbles
@@ -119,7 +120,7 @@ template <int D, unsigned WHAT, bool NEWTON, class Law, class B> struct ContactB
     const ContactSums s = sums;
     for (int m = 0; m < n; m++) {
       const int i = c.i[m], j = c.j[m];
-      const bool both = NEWTON || j < nlocal;
+      const bool both = j >= begin && j < end;
       double F[3];
       for (int k = 0; k < D; k++) F[k] = c.F_over_r[m] * c.del[k][m];
       if (!(c.rsq[m] > 0.0)) {    // as in ContactLoop

@@ -115,10 +115,16 @@ template <int D, class B> struct Fields : State<B> {
       put(i, q);
       return s.b.radius(i) - before;
     }
+
+    // An error of gas as one of the radius, of a bubble as large as now or at the start of the step.  One that is used
+    // up, now, has no radius to be wrong by: its gas goes to others, so a bubble of the mean radius is asked.
+
     FOAM_FUNCTION double measure(int i, double change) const
     {
-      const double R = s.b.radius(i);
-      return radius_near<D>(s.variable, s.q[i] + change, R) - R;
+      const double R = s.b.radius(i), R_start = s.radius_start[i];
+      if (s.variable == Variable::RADIUS) return radius_of<D>(s.variable, s.q[i] + change) - R;
+      const double slope = slope_of_power<D>(R < R_start ? R_start : R);
+      return change / (s.used_up(i) && slope < s.q_unit ? s.q_unit : slope);
     }
     FOAM_FUNCTION double unit() const { return s.q_unit; }
   };

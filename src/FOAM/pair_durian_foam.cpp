@@ -115,7 +115,7 @@ void PairDurianFoam::gather_in(const Law &chosen, unsigned what)
                     all ? list->firstneigh : near_list.firstneigh.data(), nlocal};
     const Foam::ContactLoop<D, WHAT, false, Law, Foam::HostBubbles, List, T> functor{
         space.bubbles(), half, chosen, coefficients(), sums, true, what};
-    using Blocks = Foam::ContactBlocks<D, WHAT, NEWTON, Law, Foam::HostBubbles>;
+    using Blocks = Foam::ContactBlocks<D, WHAT, Law, Foam::HostBubbles>;
     if constexpr (Blocks::POSSIBLE) {
       if (foam_has_wide_vectors() && !sums.members.mask) {
         if (!pairs_made.of(neighbor)) pairs.take(list->inum, half);
@@ -124,7 +124,8 @@ void PairDurianFoam::gather_in(const Law &chosen, unsigned what)
                       pairs.first.data(),
                       pairs.second.data(),
                       count,
-                      nlocal,
+                      0,
+                      nall,
                       chosen,
                       coefficients(),
                       sums}();

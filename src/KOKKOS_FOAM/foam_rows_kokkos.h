@@ -28,6 +28,7 @@ template <class DeviceType> struct FoamRows {
   Numbers first;     // where a row begins, [nlocal+1]
   Numbers shared;    // how many of its pairs occur once; these come first
   Numbers partner;
+  Numbers owner;    // of the row that a partner is in; only where pairs are wanted apart from rows
 
   struct Row {
     int i, size, shared;
@@ -45,8 +46,8 @@ template <class DeviceType> struct FoamRows {
 
 template <class DeviceType> double bytes(const FoamRows<DeviceType> &rows)
 {
-  return sizeof(int) *
-         double(rows.first.extent(0) + rows.shared.extent(0) + rows.partner.extent(0));
+  return sizeof(int) * double(rows.first.extent(0) + rows.shared.extent(0) +
+                              rows.partner.extent(0) + rows.owner.extent(0));
 }
 
 // ---------------------------------------------------------------------- how they are made
@@ -180,6 +181,15 @@ template <class DeviceType, class Near> struct SortRows : ListedPairs<DeviceType
   }
 };
 
+template <class DeviceType> struct OwnPairs {
+  static constexpr const char *NAME = "foam: owners of pairs";
+  FoamRows<DeviceType> rows;
+  KOKKOS_INLINE_FUNCTION void operator()(int i) const
+  {
+    for (int p = rows.first(i); p < rows.first(i + 1); p++) rows.owner(p) = i;
+  }
+};
+
 struct All {
   KOKKOS_INLINE_FUNCTION bool operator()(int, int) const { return true; }
 };
@@ -221,6 +231,17 @@ void foam_make_rows(const FoamKokkos<DeviceType> &space, NeighList *list,
   pairs.rows = rows;
   space.for_each(list->inum, FillRows<DeviceType, Near>{pairs});
   space.for_each(nlocal, SortRows<DeviceType, Near>{pairs, {space.bubbles(), {range}, 0.0}});
+}
+
+// the same pairs apart from rows, see Foam::ContactBlocks
+
+template <class DeviceType>
+void foam_own_pairs(const FoamKokkos<DeviceType> &space, int nlocal, FoamRows<DeviceType> &rows)
+{
+  if (rows.owner.extent(0) < rows.partner.extent(0))
+    rows.owner = typename FoamRows<DeviceType>::Numbers(
+        Kokkos::view_alloc("foam: owners", Kokkos::WithoutInitializing), rows.partner.extent(0));
+  space.for_all(nlocal, FoamMakeRows::OwnPairs<DeviceType>{rows});
 }
 
 }    // namespace LAMMPS_NS

@@ -10,6 +10,7 @@
 #include "pair_durian_foam_kokkos.h"
 
 #include "foam_gas.h"
+#include "foam_contact_blocks.h"
 #include "foam_contact_loops.h"
 
 #include "comm.h"
@@ -162,6 +163,9 @@ template <class DeviceType> void PairDurianFoamKokkos<DeviceType>::make_rows()
         space.bubbles(), {range()}, neighbor->skin});
   else
     make(FoamMakeRows::All());    // the list knows sizes
+  if constexpr (FoamKokkos<DeviceType>::AS_WITHOUT) {
+    if (chunk > 1 && foam_has_wide_vectors()) foam_own_pairs(space, nlocal, rows);
+  }
 }
 
 // each bubble's index goes the way of its other numbers, also from ghost to ghost
@@ -347,75 +351,99 @@ template <class DeviceType> struct KokkosTally {
   }
 };
 
-// Bodies for a bubble or, where pairs occur once, for a chunk of them. Forces are written over if
-// LAMMPS has not cleared them.
+// Bodies for a bubble or, where pairs occur once, for a chunk of them: row by row or, on processors with wide vectors,
+// in blocks of pairs. Forces are written over if LAMMPS has not cleared them.
 
-template <unsigned WHAT, class Loop, class Tally>
-FOAM_ALWAYS_INLINE void do_chunk(const Loop &loop, int c, int chunk, int nlocal, bool clear,
-                                 Tally &tally)
-{
-  const int begin = c * chunk, end = begin + chunk < nlocal ? begin + chunk : nlocal;
-  for (int i = begin; i < end; i++) {
-    loop.sums.clear(i, loop.asked());
-    if constexpr (WHAT & (Foam::FORCE | Foam::ANY))
-      if (clear)
-        for (int k = 0; k < 3; k++) loop.b.f(i, k) = 0.0;
-  }
-  for (int i = begin; i < end; i++) loop(i, tally);
-}
-
-template <unsigned WHAT, bool CHUNKS, class Loop> struct Contacts {
-  static constexpr const char *NAME = "foam: contacts";
+template <bool CHUNKS, class Loop, class Blocks> struct Pass {
   Loop loop;
   int chunk, nlocal;
   bool clear;
+
+  template <class Tally> FOAM_ALWAYS_INLINE void operator()(int n, Tally &tally) const
+  {
+    if constexpr (CHUNKS)
+      do_chunk(n, tally);
+    else
+      loop(n, tally);
+  }
+  KOKKOS_INLINE_FUNCTION int begin(int c) const { return c * chunk; }
+  KOKKOS_INLINE_FUNCTION int end(int c) const
+  {
+    return (c + 1) * chunk < nlocal ? (c + 1) * chunk : nlocal;
+  }
+
+ private:
+  template <class Tally> FOAM_ALWAYS_INLINE void do_chunk(int c, Tally &tally) const
+  {
+    const unsigned what = loop.asked();
+    for (int i = begin(c); i < end(c); i++) {
+      loop.sums.clear(i, what);
+      if (clear && (what & Foam::FORCE))
+        for (int k = 0; k < 3; k++) loop.b.f(i, k) = 0.0;
+    }
+    if constexpr (Blocks::POSSIBLE) {
+      const auto &rows = loop.list;
+      if (rows.owner.data() && !loop.sums.members.mask) {
+        const int first = rows.first(begin(c));
+        return Blocks{loop.b,
+                      rows.owner.data() + first,
+                      rows.partner.data() + first,
+                      rows.first(end(c)) - first,
+                      begin(c),
+                      end(c),
+                      loop.law,
+                      loop.coefficients,
+                      loop.sums}();
+      }
+    }
+    for (int i = begin(c); i < end(c); i++) loop(i, tally);
+  }
+};
+
+struct NoBlocks {
+  static constexpr bool POSSIBLE = false;
+};
+
+template <class Pass> struct Contacts {
+  static constexpr const char *NAME = "foam: contacts";
+  Pass pass;
   KOKKOS_INLINE_FUNCTION void operator()(int n) const
   {
     Foam::NoTally none{};
-    if constexpr (CHUNKS)
-      do_chunk<WHAT>(loop, n, chunk, nlocal, clear, none);
-    else
-      loop(n, none);
+    pass(n, none);
   }
 };
 
 // the sums over all bubbles that exchange through the liquid needs come with it
 
-template <int D, unsigned WHAT, bool CHUNKS, class Loop> struct SummedContacts {
+template <int D, class Pass> struct SummedContacts {
   static constexpr const char *NAME = "foam: contacts and free surface";
-  Loop loop;
-  int chunk, nlocal;
-  bool clear;
+  Pass pass;
   Foam::LiquidLaw law;
   Foam::Walls walls;    // that cover bubbles
   KOKKOS_INLINE_FUNCTION void operator()(int n, Foam::FreeSurface &all) const
   {
-    Contacts<WHAT, CHUNKS, Loop>{loop, chunk, nlocal, clear}(n);
-    const int begin = n * chunk, end = begin + chunk < nlocal ? begin + chunk : nlocal;
-    const auto b = loop.b;
-    const double *const area = loop.sums.area;
-    const Foam::Members member = loop.sums.members;
+    Foam::NoTally none{};
+    pass(n, none);
+    const auto b = pass.loop.b;
+    const double *const area = pass.loop.sums.area;
+    const Foam::Members member = pass.loop.sums.members;
     Foam::FreeSurface mine;
-    for (int i = begin; i < end; i++)
+    for (int i = pass.begin(n); i < pass.end(n); i++)
       if (member(i)) mine.template add<D>(law, b, i, area, walls);
     all.join(mine);
   }
 };
 
-template <unsigned WHAT, bool CHUNKS, class Loop, class DeviceType> struct TalliedContacts {
+template <class Pass, class DeviceType> struct TalliedContacts {
   static constexpr const char *NAME = "foam: contacts, energy and virial";
-  Loop loop;
-  int chunk, nlocal;
-  bool clear;
+  Pass pass;
   KokkosTally<DeviceType> tally;
   KOKKOS_INLINE_FUNCTION void operator()(int n, EnergyVirial &all) const
   {
     KokkosTally<DeviceType> mine = tally;
     mine.all = &all;
-    if constexpr (CHUNKS)
-      do_chunk<WHAT>(loop, n, chunk, nlocal, clear, mine);
-    else
-      loop(n, mine);
+    pass(n, mine);
   }
 };
 
@@ -446,22 +474,25 @@ void PairDurianFoamKokkos<DeviceType>::gather_in(const Law &chosen, unsigned wha
     using Tally =
         std::conditional_t<(WHAT & Foam::TALLY) != 0, KokkosTally<DeviceType>, Foam::NoTally>;
     using Loop = Foam::ContactLoop<D, WHAT, !CHUNKS, Law, B, Rows, Tally>;
-    const Loop loop{space.bubbles(), rows, chosen, coefficients(), sums, !clear, what};
+    using Blocks = std::conditional_t<FoamKokkos<DeviceType>::AS_WITHOUT,
+                                      Foam::ContactBlocks<D, WHAT, Law, B>, NoBlocks>;
+    const Pass<CHUNKS, Loop, Blocks> pass{
+        {space.bubbles(), rows, chosen, coefficients(), sums, !clear, what}, chunk, nlocal, clear};
     if constexpr (WHAT & Foam::TALLY) {
       const Tally tally{nullptr, eflag_atom != 0, vflag_atom != 0,
                         k_eatom.template view<DeviceType>(), k_vatom.template view<DeviceType>()};
       const auto all = space.template reduce<EnergyVirial>(
-          n, TalliedContacts<WHAT, CHUNKS, Loop, DeviceType>{loop, chunk, nlocal, clear, tally});
+          n, TalliedContacts<Pass<CHUNKS, Loop, Blocks>, DeviceType>{pass, tally});
       if (eflag_global) eng_vdwl += all.energy;
       if (vflag_global)
         for (int k = 0; k < 6; k++) virial[k] += all.virial[k];
     } else if constexpr ((WHAT & Foam::FORCE) && (WHAT & Foam::AREA)) {
       hub.free_surface = space.template sums<Foam::FreeSurface>(
-          n, SummedContacts<D, WHAT, CHUNKS, Loop>{loop, chunk, nlocal, clear, hub.liquid_law,
-                                                   hub.walls_that(FoamHub::COVER, space)});
+          n, SummedContacts<D, Pass<CHUNKS, Loop, Blocks>>{pass, hub.liquid_law,
+                                                           hub.walls_that(FoamHub::COVER, space)});
       hub.free_surface_known = true;
     } else
-      space.for_each(n, Contacts<WHAT, CHUNKS, Loop>{loop, chunk, nlocal, clear});
+      space.for_each(n, Contacts<Pass<CHUNKS, Loop, Blocks>>{pass});
   };
   if constexpr (FoamKokkos<DeviceType>::ON_HOST) {
     if (chunk > 1) return run.template operator()<true>();

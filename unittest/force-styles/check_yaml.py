@@ -133,6 +133,9 @@ class Foam:
         removed, removed_gas, q, lag = 0, 0.0, self.R**power, self.v
         v = qdot = v1 = qdot1 = past = None
         radius, stages = float(abm.get("spectral", 0)), 0
+
+        def as_length(gas, R):                   # of bubbles with radius R
+            return gas / (self.dim * R**(self.dim - 1))
         if radius:
             limit = min(limit, stable(200) / radius)
 
@@ -167,7 +170,7 @@ class Foam:
             nonlocal stages, v1, qdot1
             stages = next(s for s in range(3, 201) if stable(s) >= step * radius)
             first, others = chebyshev(stages)
-            y0, f0 = (self.x, q), (v, qdot)
+            y0, f0, R0 = (self.x, q), (v, qdot), self.R
             older = y0
             go_to(*(y + step * first * f for y, f in zip(y0, f0)))
             for mu, nu, m, g, c in others:
@@ -175,7 +178,10 @@ class Foam:
                 v1, qdot1 = f1 = rates(lag)
                 E = [(0.8 * (y - z) + 0.4 * c * step * (f + g1)) / c**3
                      for y, z, f, g1 in zip(y0, y1, f0, f1)]
-                error = E[0], np.maximum(y1[1] + E[1], 0)**(1 / power) - R1
+                largest = np.maximum(R1, R0)
+                lasting = np.where(R1 > 0, largest, np.maximum(largest, self.rin))
+                gas_error = np.maximum(y1[1] + E[1], 0) - R1 if power == 1 else as_length(E[1], lasting)
+                error = E[0], gas_error
                 go_to(*(y + mu * (z - y) + nu * (z2 - y) + step * (m * g1 + g * f)
                         for y, z, z2, f, g1 in zip(y0, y1, older, f0, f1)))
                 older = y1
