@@ -49,7 +49,9 @@ EACH_STEP, IN_ALL = 1e-14, 1e-12
 
 ALL = [(dim, gas, "abm 1e-3") for dim in (2, 3)
        for gas in ("0.1 liquid area", "0.1 liquid lsw", "0.0", "0.3 film no")]
-ALL += [(2, "0.1 liquid area", "rkc 1e-3"), (3, "0.1 liquid lsw", "rkc 1e-4")]
+# a bubble that is used up within a step of rkc overshoots by what its tolerance allows: with 1e-4 and lsw the sum of
+# removed gas falls below 0
+ALL += [(2, "0.1 liquid area", "rkc 1e-3"), (3, "0.1 liquid lsw", "rkc 1e-5")]
 
 
 @pytest.mark.parametrize("dim, gas, step", ALL)
