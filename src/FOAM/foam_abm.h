@@ -33,6 +33,7 @@ template <class Fields> struct Predict {
       field.put(i, predict(field.start(i), field.rate(i), field.before(i), p));
     });
   }
+  bool is_plain() const { return first && y.is_plain(); }
 };
 template <class F> Predict(F, Predictor, bool) -> Predict<F>;
 

@@ -11,31 +11,14 @@
 #define LMP_FOAM_CONTACT_BLOCKS_H
 
 #include "foam_contacts.h"
+#include "foam_vectors.h"
 
 // A loop over contacts for one thread of a processor with wide vectors, where nothing but forces and what gas exchange
 // needs is gathered: the numbers of ContactLoop, to the last bit.  It goes through listed pairs in blocks, and through
 // each block three times.  Those that touch are put side by side, then evaluated, then added to the sums.  The first
 // leaves no branch to be guessed; the second has the roots and divisions, and compilers do several pairs at a time.
 
-// A version for each width of vectors, of which one is chosen when the program starts.  With two numbers in a vector,
-// or none, this loop is slower than ContactLoop.  Compilers need to be told that nobody asks for errno or for traps of
-// arithmetic, which changes no number.
-
-#if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && defined(__GLIBC__) && \
-    defined(__NO_MATH_ERRNO__) && defined(__NO_TRAPPING_MATH__) &&                           \
-    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && !defined(__CUDACC__)
-#define FOAM_WIDE_VECTORS __attribute__((target_clones("avx512f", "avx2", "default")))
-inline bool foam_has_wide_vectors()
-{
-  return __builtin_cpu_supports("avx2");
-}
-#else
-#define FOAM_WIDE_VECTORS
-inline bool foam_has_wide_vectors()
-{
-  return false;
-}
-#endif
+// With two numbers in a vector, or none, this loop is slower than ContactLoop.
 
 namespace Foam {
 

@@ -55,11 +55,16 @@ template <int D, class B> struct Drag {
 
   FOAM_FUNCTION double velocity(int i, int k) const
   {
-    if (!(b.radius(i) > 0.0)) return 0.0;
     const double u = ambient(i, k);
     double v = solved[0] ? solved[k][i] + u : drag_velocity(b.f(i, k), mu0, u);
     if (drift_removed && drift().bubbles > 0.0) v -= drift().velocity[k] / drift().bubbles;
-    return walls.hold(b, i, k, v);
+    v = walls.hold(b, i, k, v);
+    return b.radius(i) > 0.0 ? v : 0.0;
+  }
+
+  bool is_plain() const    // see foam_vectors.h
+  {
+    return !ambient.flow[0] && !ambient.contacts && !solved[0] && !drift_removed && walls.count == 0;
   }
 };
 

@@ -89,14 +89,20 @@ template <int D> struct Exchange {
   template <class B> FOAM_FUNCTION Split operator()(const B &b, int i) const
   {
     const double R = b.radius(i);
-    if (!(R > 0.0) || !(K > 0.0)) return {0.0, 0.0};
     Split split{film ? K * film[i] : 0.0, 0.0};
     const Liquid l = sums.on_device ? of(sums()) : liquid;
     if (l.coefficient > 0.0) {
       const double weight = liquid_weight(law, open_area<D>(b, i, area, walls), R);
       split.liquid = liquid_exchange(l.coefficient, weight, l.inverse_rho, R);
     }
-    return split;
+    const bool lives = R > 0.0 && K > 0.0;
+    return {lives ? split.film : 0.0, lives ? split.liquid : 0.0};
+  }
+
+  bool is_plain() const    // see foam_vectors.h
+  {
+    return K > 0.0 && film && liquid.coefficient > 0.0 && law == LiquidLaw::AREA &&
+           walls.count == 0 && !sums.on_device;
   }
 
   Liquid liquid;    // if the sums are known

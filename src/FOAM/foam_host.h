@@ -13,6 +13,7 @@
 #include "foam_columns.h"
 #include "foam_bubbles.h"
 #include "foam_reduce.h"
+#include "foam_vectors.h"
 
 #include "atom.h"
 #include "pointers.h"
@@ -47,13 +48,9 @@ class FoamHost : protected Pointers {
     return columns.in_use() ? columns[c] : nullptr;
   }
 
-  // A copy of a functor that no pointer leads to, in a loop with all that it calls: its members need not be read again
-  // after each number that is written.
-
-  template <class Functor> FOAM_FLAT void for_all(int n, const Functor &functor) const
+  template <class Functor> void for_all(int n, const Functor &functor) const
   {
-    const Functor own = functor;
-    for (int i = 0; i < n; i++) own(i);
+    foam_loop(functor, 0, n);
   }
   template <class Functor> void for_each(int n, const Functor &functor) const
   {

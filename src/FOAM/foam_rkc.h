@@ -40,6 +40,7 @@ template <class Fields> struct FirstStage {
     });
     work.bubble[i] = 0.0;
   }
+  bool is_plain() const { return first && y.is_plain(); }
 };
 template <class F> FirstStage(F, Work<F>, double, bool) -> FirstStage<F>;
 
@@ -54,6 +55,7 @@ template <class Fields, class Rates> struct NextStage {
   {
     go_on(i, [](const auto &, double) {});
   }
+  bool is_plain() const { return y.is_plain() && rates.is_plain(); }
 
   // look(field, f): at Y_{j-1} and F_{j-1}, before they are gone
 

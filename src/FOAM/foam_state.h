@@ -38,6 +38,10 @@ template <int D, class B> struct Rates {
     for (int k = 0; k < D; k++) f[k] = drag.velocity(i, k);
     f[3] = grows ? qdot(i) : 0.0;
   }
+  bool is_plain() const    // see foam_vectors.h
+  {
+    return drag.is_plain() && gas.is_plain() && variable == Variable::VOLUME && grows;
+  }
 };
 
 // Columns of FixFoamIntegrate, one of each kind for each field: x, y, z, q; values and rates of the first three
@@ -133,6 +137,12 @@ template <int D, class B> struct Fields : State<B> {
   {
     for (int k = 0; k < D; k++) visit(Place{*this, k});
     if (this->grows) visit(Gas{*this});
+  }
+
+  bool is_plain() const    // see foam_vectors.h
+  {
+    return !this->lag.exists() && !this->box_moves && this->variable == Variable::VOLUME &&
+           this->grows;
   }
 
   FOAM_FUNCTION void keep_start(int i) const
@@ -364,6 +374,7 @@ template <int D, class B> struct TakeRates {
     }
     s.qdot[i] = f[s.GAS];
   }
+  bool is_plain() const { return s.is_plain() && !s.next[0] && rates.is_plain(); }
 };
 
 }    // namespace Foam

@@ -13,6 +13,7 @@
 #include "foam_columns.h"
 #include "foam_bubbles.h"
 #include "foam_reduce.h"
+#include "foam_vectors.h"
 
 #include "atom_kokkos.h"
 #include "atom_masks.h"
@@ -138,11 +139,10 @@ template <class Functor, class Value> struct FoamReduceBubbles {
 template <class Functor, class Value> struct FoamSlices {
   Functor functor;
   int n, slice;
-  FOAM_FLAT KOKKOS_INLINE_FUNCTION void operator()(int t) const
+  void operator()(int t) const
   {
-    const Functor own = functor;
     const int begin = t * slice, end = begin + slice < n ? begin + slice : n;
-    for (int i = begin; i < end; i++) own(i);
+    foam_loop(functor, begin, end);
   }
   FOAM_FLAT KOKKOS_INLINE_FUNCTION void operator()(int t, Value &all) const
   {
