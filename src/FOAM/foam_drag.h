@@ -64,7 +64,8 @@ template <int D, class B> struct Drag {
 
   bool is_plain() const    // see foam_vectors.h
   {
-    return !ambient.flow[0] && !ambient.contacts && !solved[0] && !drift_removed && walls.count == 0;
+    return !ambient.flow[0] && !ambient.contacts && !solved[0] && !drift_removed &&
+           walls.count == 0;
   }
 };
 

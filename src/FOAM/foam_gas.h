@@ -89,13 +89,13 @@ template <int D> struct Exchange {
   template <class B> FOAM_FUNCTION Split operator()(const B &b, int i) const
   {
     const double R = b.radius(i);
-    Split split{film ? K * film[i] : 0.0, 0.0};
+    const bool lives = K > 0.0 && R > 0.0;
+    Split split{K > 0.0 && film ? K * film[i] : 0.0, 0.0};
     const Liquid l = sums.on_device ? of(sums()) : liquid;
     if (l.coefficient > 0.0) {
       const double weight = liquid_weight(law, open_area<D>(b, i, area, walls), R);
       split.liquid = liquid_exchange(l.coefficient, weight, l.inverse_rho, R);
     }
-    const bool lives = R > 0.0 && K > 0.0;
     return {lives ? split.film : 0.0, lives ? split.liquid : 0.0};
   }
 

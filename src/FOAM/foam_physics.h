@@ -72,8 +72,8 @@ template <int D> FOAM_FUNCTION double slope_of_power(double R)    // d R^D / dR
 
 template <int D> FOAM_FUNCTION double radius_of_power(double q)
 {
-  if (!(q > 0.0)) return q == q ? 0.0 : q;    // used up: no radius; NaN stays NaN
-  return D == 2 ? std::sqrt(q) : std::cbrt(q);
+  const double left = q > 0.0 ? q : 0.0;    // used up: no radius; NaN stays NaN
+  return q == q ? (D == 2 ? std::sqrt(left) : std::cbrt(left)) : q;
 }
 
 // The same, if R is near it: a radius before a step, say.  In 3D by two of Halley's steps,

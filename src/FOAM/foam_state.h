@@ -60,7 +60,7 @@ template <class B> struct State {
   bool counts = false;    // bubbles may be removed: count them, sum their gas
   bool grows = false;     // gas is exchanged, radii change
   Variable variable = Variable::VOLUME;
-  double q_unit = 1.0;    // dq / dR at the mean radius
+  double q_unit = 1.0;    // dq / dR at <R_in>
   double range = 0.0;     // of forces, in radii; 0 where radii do not change
 
   // a box that deforms under bubbles that go with it: where it has taken the places of the list to, and will have at
@@ -121,7 +121,7 @@ template <int D, class B> struct Fields : State<B> {
     }
 
     // An error of gas as one of the radius, of a bubble as large as now or at the start of the step.  One that is used
-    // up, now, has no radius to be wrong by: its gas goes to others, so a bubble of the mean radius is asked.
+    // up, now, has no radius to be wrong by: its gas goes to others, so a bubble of the radius <R_in> is asked.
 
     FOAM_FUNCTION double measure(int i, double change) const
     {

@@ -21,6 +21,7 @@
     !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && !defined(__CUDACC__)
 #define FOAM_WIDE_VECTORS __attribute__((target_clones("avx512f", "avx2", "default")))
 #define FOAM_INDEPENDENT  _Pragma("GCC ivdep")
+inline constexpr bool FOAM_MAKES_VECTORS = true;
 inline bool foam_has_wide_vectors()
 {
   return __builtin_cpu_supports("avx2");
@@ -28,6 +29,7 @@ inline bool foam_has_wide_vectors()
 #else
 #define FOAM_WIDE_VECTORS
 #define FOAM_INDEPENDENT
+inline constexpr bool FOAM_MAKES_VECTORS = false;
 inline bool foam_has_wide_vectors()
 {
   return false;
@@ -44,8 +46,8 @@ FOAM_FLAT void foam_loop_one_by_one(const Functor &functor, int begin, int end)
   for (int i = begin; i < end; i++) own(i);
 }
 
-// Functors depend on settings that are the same for all bubbles, most of them off in most foams.  One that has
-// is_plain() says so where they are off.  Below that question the compiler knows the answers, what depends on them is
+// Functors depend on settings that are the same for all bubbles, and the same in most foams that coarsen.  One that has
+// is_plain() says where they are.  Below that question the compiler knows the answers, what depends on them is
 // gone, and it does several bubbles at a time.  (GCC 12 does so only if the other loop is in the same function.)
 
 template <class Functor>

@@ -159,8 +159,7 @@ template <class Functor, class Value> struct FoamSlices {
 template <class DeviceType> class FoamKokkos : protected Pointers {
  public:
   static constexpr ExecutionSpace SPACE = ExecutionSpaceFromDevice<DeviceType>::space;
-  static constexpr bool ON_HOST =
-      Kokkos::SpaceAccessibility<Kokkos::HostSpace, typename DeviceType::memory_space>::accessible;
+  static constexpr bool ON_HOST = std::is_same_v<DeviceType, LMPHostType>;
 
   // On the host, in double precision, arrays are laid out as without KOKKOS, and pointers to them
   // are faster than Views.

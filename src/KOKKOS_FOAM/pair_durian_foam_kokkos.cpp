@@ -474,7 +474,7 @@ void PairDurianFoamKokkos<DeviceType>::gather_in(const Law &chosen, unsigned wha
     using Tally =
         std::conditional_t<(WHAT & Foam::TALLY) != 0, KokkosTally<DeviceType>, Foam::NoTally>;
     using Loop = Foam::ContactLoop<D, WHAT, !CHUNKS, Law, B, Rows, Tally>;
-    using Blocks = std::conditional_t<FoamKokkos<DeviceType>::AS_WITHOUT,
+    using Blocks = std::conditional_t<FOAM_MAKES_VECTORS && FoamKokkos<DeviceType>::AS_WITHOUT,
                                       Foam::ContactBlocks<D, WHAT, Law, B>, NoBlocks>;
     const Pass<CHUNKS, Loop, Blocks> pass{
         {space.bubbles(), rows, chosen, coefficients(), sums, !clear, what}, chunk, nlocal, clear};
