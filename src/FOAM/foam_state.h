@@ -122,6 +122,7 @@ template <int D, class B> struct Fields : State<B> {
 
     // An error of gas as one of the radius, of a bubble as large as now or at the start of the step.  One that is used
     // up, now, has no radius to be wrong by: its gas goes to others, so a bubble of the radius <R_in> is asked.
+    // Where R itself is the variable there is no such bound to miss: what is left of R + change.
 
     FOAM_FUNCTION double measure(int i, double change) const
     {
