@@ -1,5 +1,5 @@
 """The loop over contacts in blocks of pairs (foam_contact_blocks.h) has the numbers of that over rows, to the last bit,
-and so have the integrators' loops in vectors (foam_vectors.h) those of loops one by one. Rows, and loops one by one, are
+and so have the integrators' loops in vectors (foam_vectors.h) those of loops one by one. Rows and loops one by one are
 taken where the group of the bubbles is not LAMMPS' group all, though all particles are in it."""
 
 import numpy as np
