@@ -42,6 +42,7 @@ PairDurianFoam::PairDurianFoam(LAMMPS *lmp) : PairFoam(lmp, "durian/foam"), sigm
 PairDurianFoam::~PairDurianFoam()
 {
   if (copymode) return;
+  if (neighbor && list && list->occasional) list->inum = 0;    // its rows are here
 
   if (allocated) {
     memory->destroy(setflag);
@@ -64,16 +65,58 @@ void PairDurianFoam::gather(unsigned what)
   if (force->newton_pair && gathered) comm->reverse_comm(this);
 }
 
+/* ----------------------------------------------------------------------
+   The list is LAMMPS' own, which LAMMPS makes, or, as an occasional list, is filled here: each bubble looks only as far
+   as its own size says.  LAMMPS has to where anything is asked for that is not known here.
+------------------------------------------------------------------------- */
+
+bool PairDurianFoam::can_make_lists() const
+{
+  return force->newton_pair && neighbor->style == Neighbor::BIN && !neighbor->exclude &&
+         !neighbor->includegroup && atom->molecular == Atom::ATOMIC &&
+         !utils::strmatch(force->pair_style, "^hybrid");
+}
+
 void PairDurianFoam::take_list()
 {
-  if (!(range() > 1.0)) {
-    near_list.numneigh.clear();
-    return;
+  if (list_made.of(neighbor)) return;
+  near_list.numneigh.clear();
+  const bool makes_it = list->occasional && can_make_lists();    // fixes may exclude pairs, later than init_style()
+  if (makes_it)
+    Foam::with_dimension(domain->dimension, [&]<int D>() { fill_list<D>(); });
+  else if (list->occasional)
+    neighbor->build_one(list);
+  if (!makes_it && range() > 1.0)
+    near_list.take(list->inum, list->ilist, list->numneigh, list->firstneigh, atom->nlocal,
+                   Foam::ComesNear<Foam::HostBubbles, Foam::ReachOfContact>{
+                       FoamHost(lmp).bubbles(), {range()}, neighbor->skin});
+}
+
+Foam::Cells::Near PairDurianFoam::near() const
+{
+  return {range(), neighbor->skin};
+}
+
+template <int D> void PairDurianFoam::fill_list()
+{
+  const int nlocal = atom->nlocal, nall = nlocal + atom->nghost;
+  const Foam::HostBubbles b = FoamHost(lmp).bubbles();
+  cells.sort<D>(b, nall, near());
+
+  list->grow(nlocal, nall);
+  partners.clear();
+  for (int i = 0; i < nlocal; i++) {
+    const size_t before = partners.size();
+    const int found = cells.find<D>(b, i, near(), found_near);
+    for (int m = 0; m < found; m++)
+      if (Foam::is_in_row<D>(b, i, found_near[m], nlocal)) partners.push_back(found_near[m]);
+    list->ilist[i] = i;
+    list->numneigh[i] = static_cast<int>(partners.size() - before);
   }
-  if (near_made.of(neighbor)) return;
-  near_list.take(list->inum, list->ilist, list->numneigh, list->firstneigh, atom->nlocal,
-                 Foam::ComesNear<Foam::HostBubbles, Foam::ReachOfContact>{
-                     FoamHost(lmp).bubbles(), {range()}, neighbor->skin});
+  int *row = partners.data();    // it moves no more
+  for (int i = 0; i < nlocal; row += list->numneigh[i++]) list->firstneigh[i] = row;
+  list->inum = nlocal;
+  list->gnum = 0;
 }
 
 bool PairDurianFoam::Made::of(const Neighbor *neighbor)
@@ -86,7 +129,8 @@ bool PairDurianFoam::Made::of(const Neighbor *neighbor)
 
 double PairDurianFoam::memory_usage()
 {
-  return PairFoam::memory_usage() + near_list.bytes() + pairs.bytes();
+  return PairFoam::memory_usage() + near_list.bytes() + pairs.bytes() + cells.bytes() +
+         sizeof(int) * double(found_near.capacity() + partners.capacity());
 }
 
 struct PairDurianFoam::Tally {
@@ -173,7 +217,9 @@ void PairDurianFoam::init_style()
                  "Pair style durian/foam: law {} is one of bubbles in 3D, but dimension is 2",
                  chosen.NAME);
   });
-  near_made = pairs_made = Made();
+  list_made = pairs_made = Made();
+  list_flags &= ~NeighConst::REQ_OCCASIONAL;
+  if (can_make_lists()) list_flags |= NeighConst::REQ_OCCASIONAL;
   PairFoam::init_style();
 }
 

@@ -16,6 +16,7 @@ PairStyle(durian/foam,PairDurianFoam);
 #ifndef LMP_PAIR_DURIAN_FOAM_H
 #define LMP_PAIR_DURIAN_FOAM_H
 
+#include "foam_cells.h"
 #include "foam_half_list.h"
 #include "foam_law.h"
 #include "pair_foam.h"
@@ -55,15 +56,20 @@ class PairDurianFoam : public PairFoam {
  protected:
   double **sigma0;    // per pair of types
 
-  FoamShortList near_list;    // where the law acts beyond contact
-  FoamPairs pairs;            // for loops that take them in blocks
-  struct Made {               // what a list was made of, by LAMMPS' counters
+  struct Made {    // for which list, by LAMMPS' counters
     bigint ncalls = -1, lastcall = -1;
-    bool of(const class Neighbor *);    // of LAMMPS' present list; from now on it is
-  } near_made, pairs_made;
+    bool of(const class Neighbor *);    // for LAMMPS' present list; from now on it is
+  } list_made, pairs_made;
+  FoamShortList near_list;    // where the law acts beyond contact, and LAMMPS makes the list
+  FoamPairs pairs;            // for loops that take them in blocks
+  Foam::Cells cells;          // for lists that this style makes
+  std::vector<int> partners, found_near;
+  Foam::Cells::Near near() const;
 
+  virtual bool can_make_lists() const;
   void allocate();
   void gather(unsigned what) override;
+  template <int D> void fill_list();
   struct Tally;
   template <int D, unsigned WHAT, class Law> void gather_in(const Law &, unsigned what);
 };

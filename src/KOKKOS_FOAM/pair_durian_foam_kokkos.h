@@ -65,6 +65,7 @@ template <class DeviceType> class PairDurianFoamKokkos : public PairDurianFoam, 
   void take_list() override;
 
  protected:
+  bool can_make_lists() const override { return false; }
   void gather(unsigned what) override;
   void send_given() override;
 
