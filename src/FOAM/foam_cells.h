@@ -33,9 +33,10 @@ class Cells {
     double farthest(double R) const { return (*this)(2.0 * R); }
   };
 
-  // b: places x(i, k) and radii of n bubbles, which must be finite numbers, and D their dimension
+  // b: places x(i, k), finite numbers, and radii of n bubbles in D dimensions, the first nlocal of which are no ghosts
 
-  template <int D, class B> void sort(const B &b, int n, const Near &near);
+  template <int D, class B> void sort(const B &b, int nlocal, int n, const Near &near);
+  template <int D, class B> bool reaches_owned(const B &b, int i, const Near &near) const;
 
   // Puts those near bubble i that are no larger than it, and i itself, into found; returns how many. In the order of cells,
   // and of their numbers in each. Others may look at the same time.
@@ -50,17 +51,18 @@ class Cells {
   }
 
  private:
-  double lowest[3], per_width = 0.0;    // corner, cells per length
+  double lowest[3], per_width[3];       // corner, cells per length
+  double owned_low[3], owned_high[3];
   int count[3];                         // of cells along x, y, z
   std::vector<int> first;               // of a cell, [cells + 1]
   std::vector<int> cell;                // of a bubble
   std::vector<int> index;               // of the bubbles in the order of cells, and their numbers
   std::vector<double> x[3], radius;
 
-  template <int D, class B> void choose_cells(const B &b, int n, const Near &near);
+  template <int D, class B> void choose_cells(const B &b, int nlocal, int n, const Near &near);
   int along(int k, double place) const    // clamped, also where place is far away or no number
   {
-    const double c = (place - lowest[k]) * per_width;
+    const double c = (place - lowest[k]) * per_width[k];
     return c > 0.0 ? (c < count[k] ? static_cast<int>(c) : count[k] - 1) : 0;
   }
 };
@@ -68,15 +70,20 @@ class Cells {
 // Cells are as wide as the harmonic mean of what bubbles look: few large ones do not make them wide. Where few bubbles are
 // spread far there are not many more cells than bubbles.
 
-template <int D, class B> void Cells::choose_cells(const B &b, int n, const Near &near)
+template <int D, class B> void Cells::choose_cells(const B &b, int nlocal, int n, const Near &near)
 {
   constexpr double CELLS = 8.0;    // per bubble, at most
+  constexpr double FINER = 4.0;    // along x: a row begins and ends where it is of use
   double highest[3], narrow = 0.0, longest = 0.0;
   for (int k = 0; k < 3; k++) lowest[k] = highest[k] = k < D && n > 0 ? b.x(0, k) : 0.0;
   for (int i = 0; i < n; i++) {
     for (int k = 0; k < D; k++) {
       lowest[k] = std::min(lowest[k], b.x(i, k));
       highest[k] = std::max(highest[k], b.x(i, k));
+      if (i + 1 == nlocal) {
+        owned_low[k] = lowest[k];
+        owned_high[k] = highest[k];
+      }
     }
     const double far = near.farthest(b.radius(i));
     if (far > 0.0) narrow += 1.0 / far;
@@ -88,18 +95,18 @@ template <int D, class B> void Cells::choose_cells(const B &b, int n, const Near
   do {
     cells = 1.0;
     for (int k = 0; k < 3; k++) {
-      const double whole = std::floor((highest[k] - lowest[k]) / width) + 1.0;
+      per_width[k] = (k == 0 ? FINER : 1.0) / width;
+      const double whole = std::floor((highest[k] - lowest[k]) * per_width[k]) + 1.0;
       count[k] = static_cast<int>(std::min(whole, CELLS * n + 1.0));
       cells *= count[k];
     }
-    per_width = 1.0 / width;
     width *= 1.5;
   } while (cells > CELLS * n + 1.0);
 }
 
-template <int D, class B> void Cells::sort(const B &b, int n, const Near &near)
+template <int D, class B> void Cells::sort(const B &b, int nlocal, int n, const Near &near)
 {
-  choose_cells<D>(b, n, near);
+  choose_cells<D>(b, nlocal, n, near);
   first.assign(static_cast<size_t>(count[0]) * count[1] * count[2] + 1, 0);
   cell.resize(n);
   index.resize(n);
@@ -122,6 +129,14 @@ template <int D, class B> void Cells::sort(const B &b, int n, const Near &near)
   }
   std::copy_backward(first.begin(), first.end() - 1, first.end());
   first[0] = 0;
+}
+
+template <int D, class B> bool Cells::reaches_owned(const B &b, int i, const Near &near) const
+{
+  const double far = near.farthest(b.radius(i));
+  for (int k = 0; k < D; k++)
+    if (!(b.x(i, k) + far >= owned_low[k] && b.x(i, k) - far <= owned_high[k])) return false;
+  return true;
 }
 
 template <int D, class B>
@@ -171,6 +186,14 @@ bool is_in_row(const B &b, int i, int j, int nlocal)    // of i, which is no sma
   for (int k = D - 1; k > 0; k--)
     if (std::abs(d[k]) > NOTHING * most) return d[k] > 0.0;
   return d[0] > 0.0;
+}
+
+// The same where each rank has all pairs of its bubbles: with a ghost in the row of the larger one, be it the ghost.
+
+template <class B> bool is_in_own_row(const B &b, int i, int j, int nlocal)
+{
+  if (i >= nlocal) return j < nlocal && b.radius(j) < b.radius(i);
+  return j >= nlocal || b.radius(j) < b.radius(i) || j > i;
 }
 
 }    // namespace Foam

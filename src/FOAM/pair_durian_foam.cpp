@@ -72,7 +72,7 @@ void PairDurianFoam::gather(unsigned what)
 
 bool PairDurianFoam::can_make_lists() const
 {
-  return force->newton_pair && neighbor->style == Neighbor::BIN && !neighbor->exclude &&
+  return (kokkosable || force->newton_pair) && neighbor->style == Neighbor::BIN && !neighbor->exclude &&
          !neighbor->includegroup && atom->molecular == Atom::ATOMIC &&
          !utils::strmatch(force->pair_style, "^hybrid");
 }
@@ -101,7 +101,7 @@ template <int D> void PairDurianFoam::fill_list()
 {
   const int nlocal = atom->nlocal, nall = nlocal + atom->nghost;
   const Foam::HostBubbles b = FoamHost(lmp).bubbles();
-  cells.sort<D>(b, nall, near());
+  cells.sort<D>(b, nlocal, nall, near());
 
   list->grow(nlocal, nall);
   partners.clear();

@@ -15,8 +15,8 @@
 
 namespace LAMMPS_NS {
 
-// Pairs of bubbles in rows, made of LAMMPS' half list, which knows sizes: its full list does not,
-// and would be several times as long.  Bubbles are cut into chunks of consecutive ones, and a
+// Pairs of bubbles in rows, made of LAMMPS' half list, which knows sizes (its full list does not, and would be several
+// times as long), or of pairs that were found by sizes, see foam_found_kokkos.h.  Bubbles are cut into chunks of consecutive ones, and a
 // chunk is the work of one thread.  A pair within a chunk occurs once, and both partners get
 // their share; any other occurs in the rows of both partners, and each takes its own.  So nothing
 // is atomic, nothing is sent back from ghosts, and the sums of a bubble are always of the same order.
@@ -54,18 +54,45 @@ template <class DeviceType> double bytes(const FoamRows<DeviceType> &rows)
 
 namespace FoamMakeRows {
 
-// The list has a pair of owned bubbles once, in the row of either; one of an owned bubble and a
-// ghost in the owned one's.
+// LAMMPS' half list: a pair of owned bubbles once, in the row of either; one of an owned bubble and a ghost in the
+// owned one's.  Near: is a pair taken? See Foam::ComesNear
 
-template <class DeviceType, class Near> struct ListedPairs {
+template <class DeviceType, class Near> struct HalfList {
   using AT = ArrayTypes<DeviceType>;
   typename AT::t_int_1d ilist, numneigh;
   typename AT::t_neighbors_2d neighbors;
+  Near near;
+
+  HalfList(NeighList *list, const Near &near) : near(near)
+  {
+    auto *listed = static_cast<NeighListKokkos<DeviceType> *>(list);
+    ilist = listed->d_ilist;
+    numneigh = listed->d_numneigh;
+    neighbors = listed->d_neighbors;
+    inum = list->inum;
+  }
+  int inum;
+  KOKKOS_INLINE_FUNCTION int index(int n) const { return ilist(n); }
+  template <class Visit> FOAM_ALWAYS_INLINE void for_each(int i, const Visit &visit) const
+  {
+    const int size = numneigh(i);
+    for (int m = 0; m < size; m++) {
+      const int j = neighbors(i, m) & NEIGHMASK;
+      if (near(i, j)) visit(j);
+    }
+  }
+};
+
+// List has a row for each n from 0 to list.inum: that of bubble list.index(n), which may be a ghost, with its partners,
+// list.for_each(index, visit).  At least one bubble of a pair is owned.
+
+template <class DeviceType, class List> struct ListedPairs {
+  using AT = ArrayTypes<DeviceType>;
+  List list;
   FoamRows<DeviceType> rows;
   typename FoamRows<DeviceType>::Numbers filled;    // single pairs of a row so far
   int nlocal, chunk;
   typename AT::t_tagint_1d tag;
-  Near near;    // is a pair taken? See Foam::ComesNear
 
   struct Chunk {
     int begin, end;
@@ -73,35 +100,34 @@ template <class DeviceType, class Near> struct ListedPairs {
   };
   KOKKOS_INLINE_FUNCTION Chunk chunk_of(int i) const
   {
-    if (chunk == 1) return {0, 0};    // all pairs are single
+    if (chunk == 1 || i >= nlocal) return {0, 0};    // all pairs are single
     const int begin = i / chunk * chunk, end = begin + chunk;
     return {begin, end < nlocal ? end : nlocal};
   }
 };
 
-template <class DeviceType, class Near> struct CountPairs : ListedPairs<DeviceType, Near> {
+template <class DeviceType, class List> struct CountPairs : ListedPairs<DeviceType, List> {
   static constexpr const char *NAME = "foam: count pairs";
   KOKKOS_INLINE_FUNCTION void operator()(int n) const
   {
-    const int i = this->ilist(n), size = this->numneigh(i);
+    const int i = this->list.index(n);
     const auto mine = this->chunk_of(i);
     int shared = 0, single = 0;
-    for (int m = 0; m < size; m++) {
-      const int j = this->neighbors(i, m) & NEIGHMASK;
-      if (!this->near(i, j)) continue;
+    this->list.for_each(i, [&](int j) FOAM_INLINE_LAMBDA {
       if (mine.has(j))
         shared++;
       else {
         single++;
         if (j < this->nlocal) Kokkos::atomic_inc(&this->filled(j));
       }
-    }
+    });
+    if (i >= this->nlocal) return;
     this->rows.shared(i) = shared;
     Kokkos::atomic_add(&this->filled(i), single);
   }
 };
 
-template <class DeviceType, class Near> struct PlaceRows : ListedPairs<DeviceType, Near> {
+template <class DeviceType, class List> struct PlaceRows : ListedPairs<DeviceType, List> {
   using value_type = int;
   KOKKOS_INLINE_FUNCTION void operator()(int i, int &begin, bool final) const
   {
@@ -114,26 +140,25 @@ template <class DeviceType, class Near> struct PlaceRows : ListedPairs<DeviceTyp
   }
 };
 
-template <class DeviceType, class Near> struct FillRows : ListedPairs<DeviceType, Near> {
+template <class DeviceType, class List> struct FillRows : ListedPairs<DeviceType, List> {
   static constexpr const char *NAME = "foam: fill rows";
   KOKKOS_INLINE_FUNCTION void operator()(int n) const
   {
-    const int i = this->ilist(n), size = this->numneigh(i);
+    const int i = this->list.index(n);
     const auto mine = this->chunk_of(i);
     int shared = 0;
-    for (int m = 0; m < size; m++) {
-      const int j = this->neighbors(i, m) & NEIGHMASK;
-      if (!this->near(i, j)) continue;
+    this->list.for_each(i, [&](int j) FOAM_INLINE_LAMBDA {
       if (mine.has(j))
         this->rows.partner(this->rows.first(i) + shared++) = j;
       else {
         append(i, j);
-        if (j < this->nlocal) append(j, i);
+        append(j, i);
       }
-    }
+    });
   }
   KOKKOS_INLINE_FUNCTION void append(int i, int j) const
   {
+    if (i >= this->nlocal) return;
     const int place = Kokkos::atomic_fetch_inc(&this->filled(i));
     this->rows.partner(this->rows.first(i) + this->rows.shared(i) + place) = j;
   }
@@ -143,7 +168,7 @@ template <class DeviceType, class Near> struct FillRows : ListedPairs<DeviceType
 // of partners' IDs, the sums of a row come out the same every time. Pairs within the range of forces come first:
 // most of them still are when forces are wanted, so that a processor guesses well which are.
 
-template <class DeviceType, class Near> struct SortRows : ListedPairs<DeviceType, Near> {
+template <class DeviceType, class List> struct SortRows : ListedPairs<DeviceType, List> {
   static constexpr const char *NAME = "foam: sort rows";
   using B = typename FoamKokkos<DeviceType>::Bubbles;
   Foam::ComesNear<B, Foam::ReachOfContact> touch;
@@ -190,18 +215,30 @@ template <class DeviceType> struct OwnPairs {
   }
 };
 
+template <class DeviceType> struct TellSizes {
+  static constexpr const char *NAME = "foam: sizes of rows";
+  FoamRows<DeviceType> rows;
+  typename ArrayTypes<DeviceType>::t_int_1d ilist, numneigh;
+  KOKKOS_INLINE_FUNCTION void operator()(int i) const
+  {
+    ilist(i) = i;
+    numneigh(i) = rows.first(i + 1) - rows.first(i);
+  }
+};
+
 struct All {
   KOKKOS_INLINE_FUNCTION bool operator()(int, int) const { return true; }
 };
 
 }    // namespace FoamMakeRows
 
-// tag: IDs, where they run. range: of forces, in radii; 0: all pairs of a row in the order of IDs
+// list: as ListedPairs wants it. tag: IDs, where they run. range: of forces, in radii; 0: all pairs of a row in the order
+// of IDs
 
-template <class DeviceType, class Near>
-void foam_make_rows(const FoamKokkos<DeviceType> &space, NeighList *list,
+template <class DeviceType, class List>
+void foam_make_rows(const FoamKokkos<DeviceType> &space, const List &list,
                     typename ArrayTypes<DeviceType>::t_tagint_1d tag, int nlocal, int nmax,
-                    int chunk, double range, const Near &near, FoamRows<DeviceType> &rows)
+                    int chunk, double range, FoamRows<DeviceType> &rows)
 {
   using namespace FoamMakeRows;
   using Numbers = typename FoamRows<DeviceType>::Numbers;
@@ -211,26 +248,18 @@ void foam_make_rows(const FoamKokkos<DeviceType> &space, NeighList *list,
   } else
     Kokkos::deep_copy(DeviceType(), rows.shared, 0);
 
-  auto *listed = static_cast<NeighListKokkos<DeviceType> *>(list);
-  ListedPairs<DeviceType, Near> pairs{listed->d_ilist,
-                                      listed->d_numneigh,
-                                      listed->d_neighbors,
-                                      rows,
-                                      Numbers("foam: filled of rows", nlocal),
-                                      nlocal,
-                                      chunk,
-                                      tag,
-                                      near};
-  space.for_each(list->inum, CountPairs<DeviceType, Near>{pairs});
+  ListedPairs<DeviceType, List> pairs{list,   rows,  Numbers("foam: filled of rows", nlocal),
+                                      nlocal, chunk, tag};
+  space.for_each(list.inum, CountPairs<DeviceType, List>{pairs});
   int total = 0;
   Kokkos::parallel_scan("foam: place rows", Kokkos::RangePolicy<DeviceType>(0, nlocal + 1),
-                        PlaceRows<DeviceType, Near>{pairs}, total);
+                        PlaceRows<DeviceType, List>{pairs}, total);
   if (static_cast<int>(rows.partner.extent(0)) < total)
     rows.partner = Numbers(Kokkos::view_alloc("foam: partners", Kokkos::WithoutInitializing),
                            static_cast<size_t>(1.1 * total));
   pairs.rows = rows;
-  space.for_each(list->inum, FillRows<DeviceType, Near>{pairs});
-  space.for_each(nlocal, SortRows<DeviceType, Near>{pairs, {space.bubbles(), {range}, 0.0}});
+  space.for_each(list.inum, FillRows<DeviceType, List>{pairs});
+  space.for_each(nlocal, SortRows<DeviceType, List>{pairs, {space.bubbles(), {range}, 0.0}});
 }
 
 // the same pairs apart from rows, see Foam::ContactBlocks

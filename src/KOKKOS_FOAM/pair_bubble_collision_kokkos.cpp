@@ -52,8 +52,9 @@ template <class DeviceType> void PairBubbleCollisionKokkos<DeviceType>::request_
 template <class DeviceType> void PairBubbleCollisionKokkos<DeviceType>::take_list()
 {
   atomKK->sync(execution_space, TAG_MASK);
-  foam_make_rows(space, list, atomKK->k_tag.view<DeviceType>(), atom->nlocal, atom->nmax, 1, 0.0,
-                 comes_near(space.bubbles()), rows);
+  const auto near = comes_near(space.bubbles());
+  foam_make_rows(space, FoamMakeRows::HalfList<DeviceType, decltype(near)>(list, near),
+                 atomKK->k_tag.view<DeviceType>(), atom->nlocal, atom->nmax, 1, 0.0, rows);
 }
 
 template <class DeviceType> double PairBubbleCollisionKokkos<DeviceType>::memory_usage()

@@ -67,6 +67,13 @@ template <class DeviceType> void PairDurianFoamKokkos<DeviceType>::init_style()
   fuse_force_clear_flag = !utils::strmatch(force->pair_style, "^hybrid");
 }
 
+// on a GPU LAMMPS does
+
+template <class DeviceType> bool PairDurianFoamKokkos<DeviceType>::can_make_lists() const
+{
+  return FoamKokkos<DeviceType>::ON_HOST && PairDurianFoam::can_make_lists();
+}
+
 // Without newton LAMMPS looks at all bins around a bubble for half of its pairs, and most pairs reach half as far as
 // the largest: few bins as wide as the cutoff are searched faster than many of half that width, LAMMPS' own without a
 // GPU. What users ask for stays. LAMMPS refuses bins a hundred times as wide as the box.
@@ -154,17 +161,42 @@ template <class DeviceType> void PairDurianFoamKokkos<DeviceType>::make_rows()
 
   atomKK->sync(execution_space, TAG_MASK);
   const auto tag = atomKK->k_tag.view<DeviceType>();
-  auto make = [&](const auto &near) {
-    foam_make_rows(space, list, tag, nlocal, atom->nmax, chunk, range(), near, rows);
+  auto make = [&](const auto &pairs) {
+    foam_make_rows(space, pairs, tag, nlocal, atom->nmax, chunk, range(), rows);
   };
-  if (range() > 1.0)
-    make(Foam::ComesNear<typename FoamKokkos<DeviceType>::Bubbles, Foam::ReachOfContact>{
-        space.bubbles(), {range()}, neighbor->skin});
-  else
-    make(FoamMakeRows::All());    // the list knows sizes
+  auto of_list = [&]<class Near>(const Near &near) {
+    make(FoamMakeRows::HalfList<DeviceType, Near>(list, near));
+  };
+  if (list->occasional && can_make_lists()) {    // fixes may exclude pairs, later than init_style()
+    if constexpr (FoamKokkos<DeviceType>::ON_HOST)
+      Foam::with_dimension(domain->dimension, [&]<int D>() {
+        make(found.template find<D>(space, nlocal, nlocal + atom->nghost, near()));
+      });
+    tell_sizes();
+  } else {
+    if (list->occasional) neighbor->build_one(list);
+    if (range() > 1.0)
+      of_list(Foam::ComesNear<typename FoamKokkos<DeviceType>::Bubbles, Foam::ReachOfContact>{
+          space.bubbles(), {range()}, neighbor->skin});
+    else
+      of_list(FoamMakeRows::All());    // it knows sizes
+  }
   if constexpr (FoamKokkos<DeviceType>::AS_WITHOUT) {
     if (chunk > 1 && foam_has_wide_vectors()) foam_own_pairs(space, nlocal, rows);
   }
+}
+
+// to LAMMPS, whose list of pairs is filled by nobody else
+
+template <class DeviceType> void PairDurianFoamKokkos<DeviceType>::tell_sizes()
+{
+  const int nlocal = atom->nlocal;
+  list->grow(nlocal, nlocal + atom->nghost);
+  auto *const listed = static_cast<NeighListKokkos<DeviceType> *>(list);
+  listed->grow(nlocal);
+  space.for_all(nlocal, FoamMakeRows::TellSizes<DeviceType>{rows, listed->d_ilist, listed->d_numneigh});
+  list->inum = nlocal;
+  list->gnum = 0;
 }
 
 // each bubble's index goes the way of its other numbers, also from ghost to ghost
@@ -362,7 +394,7 @@ void PairDurianFoamKokkos<DeviceType>::gather_in(const Law &chosen, unsigned wha
 
 template <class DeviceType> double PairDurianFoamKokkos<DeviceType>::memory_usage()
 {
-  return PairDurianFoam::memory_usage() + bytes(rows);
+  return PairDurianFoam::memory_usage() + bytes(rows) + found.bytes();
 }
 
 namespace LAMMPS_NS {

@@ -18,6 +18,7 @@ PairStyle(durian/foam/kk/host,PairDurianFoamKokkos<LMPHostType>);
 #ifndef LMP_PAIR_DURIAN_FOAM_KOKKOS_H
 #define LMP_PAIR_DURIAN_FOAM_KOKKOS_H
 
+#include "foam_found_kokkos.h"
 #include "foam_ghosts_kokkos.h"
 #include "foam_kokkos.h"
 #include "foam_rows_kokkos.h"
@@ -65,12 +66,13 @@ template <class DeviceType> class PairDurianFoamKokkos : public PairDurianFoam, 
   void take_list() override;
 
  protected:
-  bool can_make_lists() const override { return false; }
+  bool can_make_lists() const override;
   void gather(unsigned what) override;
   void send_given() override;
 
  private:
   FoamKokkos<DeviceType> space;
+  FoamFound found;    // what rows are made of on the host
   FoamRows<DeviceType> rows;
   int chunk = 1;    // bubbles in it
 
@@ -95,6 +97,7 @@ template <class DeviceType> class PairDurianFoamKokkos : public PairDurianFoam, 
   void choose_bins();
   bool has_own_bins() const;
   void make_rows();
+  void tell_sizes();
   void make_owners();
   FoamGhosts<DeviceType> ghosts() const;
   Foam::Given given_there();

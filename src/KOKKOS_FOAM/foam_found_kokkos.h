@@ -1,0 +1,105 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   This software is distributed under the GNU General Public License.
+   Wet-foam package: see the README file of the package.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_FOAM_FOUND_KOKKOS_H
+#define LMP_FOAM_FOUND_KOKKOS_H
+
+#include "foam_cells.h"
+#include "foam_kokkos.h"
+
+#include <vector>
+
+namespace LAMMPS_NS {
+
+// Pairs found by sizes (foam_cells.h), by the threads of a host: all those of owned bubbles, each once. Where the larger
+// is a ghost, it is the ghost that finds them.
+
+class FoamFound {
+ public:
+  struct Row {
+    const int *partners;
+    int size;
+  };
+  struct List {    // see ListedPairs in foam_rows_kokkos.h
+    const Row *rows;
+    int inum;    // owned bubbles and ghosts
+    int index(int n) const { return n; }
+    template <class Visit> FOAM_ALWAYS_INLINE void for_each(int i, const Visit &visit) const
+    {
+      const Row row = rows[i];
+      for (int m = 0; m < row.size; m++) visit(row.partners[m]);
+    }
+  };
+
+  template <int D, class DeviceType>
+  List find(const FoamKokkos<DeviceType> &space, int nlocal, int nall,
+            const Foam::Cells::Near &near);
+  double bytes() const;
+
+ private:
+  struct Slice {    // of bubbles, the work of a thread
+    std::vector<int> partners, found;
+  };
+  Foam::Cells cells;
+  std::vector<Row> rows;
+  std::vector<Slice> slices;
+
+  template <int D, class B> struct Search {
+    static constexpr const char *NAME = "foam: find pairs";
+    B b;
+    const Foam::Cells *cells;
+    Foam::Cells::Near near;
+    Slice *slices;
+    Row *rows;
+    int nlocal, nall, length;    // of a slice
+    void operator()(int s) const
+    {
+      auto &[partners, found] = slices[s];
+      partners.clear();
+      const int begin = s * length, end = begin + length < nall ? begin + length : nall;
+      for (int i = begin; i < end; i++) {
+        const size_t before = partners.size();
+        const bool looks = i < nlocal || cells->reaches_owned<D>(b, i, near);
+        const int many = looks ? cells->find<D>(b, i, near, found) : 0;
+        for (int m = 0; m < many; m++)
+          if (Foam::is_in_own_row(b, i, found[m], nlocal)) partners.push_back(found[m]);
+        rows[i].size = static_cast<int>(partners.size() - before);
+      }
+      const int *next = partners.data();    // it moves no more
+      for (int i = begin; i < end; next += rows[i++].size) rows[i].partners = next;
+    }
+  };
+};
+
+template <int D, class DeviceType>
+FoamFound::List FoamFound::find(const FoamKokkos<DeviceType> &space, int nlocal, int nall,
+                                const Foam::Cells::Near &near)
+{
+  const auto b = space.bubbles();
+  cells.sort<D>(b, nlocal, nall, near);
+  rows.resize(nall);
+  const int threads = DeviceType().concurrency(), length = (nall + threads - 1) / threads;
+  slices.resize(threads);
+  if (nall > 0)
+    space.for_all(threads, Search<D, decltype(b)>{b, &cells, near, slices.data(), rows.data(),
+                                                  nlocal, nall, length});
+  return {rows.data(), nall};
+}
+
+inline double FoamFound::bytes() const
+{
+  double all = cells.bytes() + sizeof(Row) * double(rows.capacity());
+  for (const Slice &slice : slices)
+    all += sizeof(int) * double(slice.partners.capacity() + slice.found.capacity());
+  return all;
+}
+
+}    // namespace LAMMPS_NS
+
+#endif
