@@ -47,20 +47,23 @@ template <class Fields, class Rates, class Judge> struct Correct {
   Work<Fields> next;    // f_{n+1}, if the rates of the predicted state are taken for it
   bool keeps;
   double h;
-  FOAM_FUNCTION void operator()(int i, typename Judge::Totals &all) const
+  using Move = Moved<typename Judge::Look>;
+  FOAM_FUNCTION Move move(int i) const
   {
-    const auto reach = y.reach(i);
+    Move moved{{}, y.reach(i), {}};
     double f[Fields::MOST];
     rates(i, f);
-    StepError error;
     y.each([&](const auto &field) {
       const int n = field.number;
       const double corrected = correct(field.start(i), field.rate(i), f[n], h);
       if (keeps) next.field[n][i] = f[n];
-      error.add(field.move(i, corrected));
+      moved.error.add(field.move(i, corrected));
     });
-    judge(i, error, reach, all);
+    moved.look = judge.look(i);
+    return moved;
   }
+  FOAM_FUNCTION void operator()(int i, typename Judge::Totals &all) const { judge(i, move(i), all); }
+  bool is_plain() const { return !keeps && y.is_plain() && rates.is_plain() && judge.is_plain(); }
 };
 template <class F, class R, class J> Correct(F, R, J, Work<F>, bool, double) -> Correct<F, R, J>;
 

@@ -59,11 +59,11 @@ class FoamHost : protected Pointers {
   template <class Totals, class Functor>
   FOAM_FLAT Totals totals(int n, const Functor &functor) const    // of this rank
   {
-    const Functor own = functor;
     Totals mine;
     if (groupbit == Foam::GROUP_ALL) {
-      for (int i = 0; i < n; i++) own(i, mine);
+      foam_totals_of(functor, 0, n, mine);
     } else {
+      const Functor own = functor;
       const Foam::Members member = members(groupbit);
       for (int i = 0; i < n; i++)
         if (member(i)) own(i, mine);

@@ -85,7 +85,8 @@ template <class Fields, class Rates, class Judge> struct LastStage {
   NextStage<Fields, Rates> stage;
   Judge judge;
   double place;    // c_{s-1}
-  FOAM_FUNCTION void operator()(int i, typename Judge::Totals &all) const
+  using Move = Moved<typename Judge::Look>;
+  FOAM_FUNCTION Move move(int i) const
   {
     StepError error;
     stage.go_on(i, [&](const auto &field, double f) {
@@ -93,8 +94,10 @@ template <class Fields, class Rates, class Judge> struct LastStage {
           stage_error(field.start(i), field.value(i), f, field.rate(i), stage.h, place);
       error.add(field.measure(i, of_field));
     });
-    judge(i, error, stage.work.bubble[i], all);
+    return {error, stage.work.bubble[i], judge.look(i)};
   }
+  FOAM_FUNCTION void operator()(int i, typename Judge::Totals &all) const { judge(i, move(i), all); }
+  bool is_plain() const { return stage.is_plain() && judge.is_plain(); }
 };
 template <class F, class R, class J> LastStage(NextStage<F, R>, J, double) -> LastStage<F, R, J>;
 

@@ -37,8 +37,8 @@
 //   field.move(i, value)    puts a value, and gives the length of the change
 //   field.unit()            change per unit of length
 //
-// rates(i, f) gives f of the state evaluated last, judge(i, error, reach, totals) adds a candidate to the totals
-// that decide on it.  A System puts them together on the host:
+// rates(i, f) gives f of the state evaluated last, judge.look(i) is what has to be seen of bubble i at
+// the end of a step, and judge(i, moved, totals) adds it to the totals that decide on the step.  A System puts them together on the host:
 //
 //   System::Fields, System::Totals             types of the fields and of the totals, which are Judge::Totals, too
 //   fields(), rates(), judge(), work()         Fields, Rates, Judge, Work
@@ -69,6 +69,15 @@ struct StepError {
     if (error > largest) largest = error;
     squares += error * error;
   }
+};
+
+// One bubble at the end of a step that is tried.  Functors have move(i), which makes it, and judge(i, moved, totals): they
+// are called one after the other, or the first for a block of bubbles at a time (foam_totals_of()).
+
+template <class Look> struct Moved {
+  StepError error;
+  double reach;
+  Look look;
 };
 
 template <class Fields> struct KeepStart {

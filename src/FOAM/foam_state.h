@@ -80,7 +80,7 @@ template <class B> struct State {
 template <int D, class B> FOAM_FUNCTION void put_gas(const State<B> &s, int i, double q)
 {
   s.q[i] = q;
-  s.b.radius(i) = radius_near<D>(s.variable, q, s.b.radius(i));
+  s.b.radius(i) = radius_of<D>(s.variable, q);
 }
 
 template <int D, class B> struct Fields : State<B> {
@@ -129,7 +129,7 @@ template <int D, class B> struct Fields : State<B> {
       const double R = s.b.radius(i), R_start = s.radius_start[i];
       if (s.variable == Variable::RADIUS) return radius_of<D>(s.variable, s.q[i] + change) - R;
       const double slope = slope_of_power<D>(R < R_start ? R_start : R);
-      return change / (s.used_up(i) && slope < s.q_unit ? s.q_unit : slope);
+      return change / (s.used_up(i) & (slope < s.q_unit) ? s.q_unit : slope);
     }
     FOAM_FUNCTION double unit() const { return s.q_unit; }
   };
@@ -235,20 +235,29 @@ template <int D, class B> struct Judge {
   Fields<D, B> s;
   double smallest;    // radius below which a bubble is removed
 
-  template <class Reach>
-  FOAM_FUNCTION void operator()(int i, const StepError &error, const Reach &reach,
-                                Judgement &all) const
-  {
-    all.error.raise(error.largest);
-    all.squares += error.squares;
-    all.moved.raise(reach);
-    const double R = s.b.radius(i), q = s.q[i], R_start = s.grows ? s.radius_start[i] : R;
-    if (!(R_start > 0.0)) return;    // dead already
+  bool is_plain() const { return s.is_plain(); }
 
-    const FoamLength ahead = s.ahead(i, R, R_start);
-    all.ahead.raise(ahead);
-    all.ahead.raise(s.from_listed(i, R));
-    if (!ahead.finite() || !std::isfinite(q)) all.bad += 1.0;
+  struct Look {
+    double ahead;    // how far from the listed state, now or in the next step
+    double bad;      // 1 if something is no number
+  };
+  FOAM_FUNCTION Look look(int i) const
+  {
+    const double R = s.b.radius(i), R_start = s.grows ? s.radius_start[i] : R;
+    const double ahead = s.ahead(i, R, R_start), now = s.from_listed(i, R);
+    return {now > ahead ? now : ahead, std::isfinite(ahead) & std::isfinite(s.q[i]) ? 0.0 : 1.0};
+  }
+
+  FOAM_FUNCTION void operator()(int i, const Moved<Look> &moved, Judgement &all) const
+  {
+    all.error.raise(moved.error.largest);
+    all.squares += moved.error.squares;
+    all.moved.raise(moved.reach);
+    const double R = s.b.radius(i), q = s.q[i];
+    if (!((s.grows ? s.radius_start[i] : R) > 0.0)) return;    // dead already
+
+    all.ahead.raise(moved.look.ahead);
+    all.bad += moved.look.bad;
 
     if (!s.counts) {    // nobody asks for their sums
       all.bubbles += 1.0;

@@ -35,13 +35,6 @@ template <int D> FOAM_FUNCTION double radius_of(Variable variable, double q)
   return q < 0.0 ? 0.0 : q;
 }
 
-// the same, with a radius R near it
-
-template <int D> FOAM_FUNCTION double radius_near(Variable variable, double q, double R)
-{
-  return variable == Variable::VOLUME ? radius_of_power_near<D>(q, R) : radius_of<D>(variable, q);
-}
-
 template <int D> FOAM_FUNCTION double q_of(Variable variable, double R)
 {
   return variable == Variable::VOLUME ? power_of_radius<D>(R) : R;

@@ -10,6 +10,8 @@
 #ifndef LMP_FOAM_VECTORS_H
 #define LMP_FOAM_VECTORS_H
 
+#include <cstring>
+
 #include "foam_physics.h"
 
 // Loops in vectors, on processors of which a vector has four numbers or more: GCC makes a version of a function for each
@@ -77,6 +79,68 @@ template <class Functor> void foam_choose_loop(const Functor &functor, int begin
 template <class Functor> void foam_loop(const Functor &functor, int begin, int end)
 {
   foam_choose_loop(functor, begin, end, 0);
+}
+
+// Totals over bubbles.  Sums are made one by one, in the order of the bubbles, but where a functor first moves a bubble,
+// move(i), and then judges it, it moves those of a block in vectors before it judges them.
+
+template <class Move> struct FoamMoved {    // of a block; Move: a struct of numbers
+  static constexpr int SIZE = 248, NUMBERS = sizeof(Move) / sizeof(double);
+  double number[NUMBERS][SIZE];
+  void put(int m, const Move &move)
+  {
+    double each[NUMBERS];
+    std::memcpy(each, &move, sizeof(Move));
+    for (int k = 0; k < NUMBERS; k++) number[k][m] = each[k];
+  }
+  Move get(int m) const
+  {
+    double each[NUMBERS];
+    for (int k = 0; k < NUMBERS; k++) each[k] = number[k][m];
+    Move move;
+    std::memcpy(&move, each, sizeof(Move));
+    return move;
+  }
+};
+
+template <class Functor> struct FoamMoves {
+  Functor functor;
+  FoamMoved<typename Functor::Move> *block;
+  int first;
+  void operator()(int i) const { block->put(i - first, functor.move(i)); }
+  bool is_plain() const { return functor.is_plain(); }
+};
+
+template <class Totals, class Functor>
+auto foam_totals_in_blocks(const Functor &functor, int begin, int end, Totals &all, int)
+    -> decltype(functor.move(0), bool())
+{
+  if (!foam_has_wide_vectors() || !functor.is_plain()) return false;
+  FoamMoved<typename Functor::Move> block;
+  const auto judge = functor.judge;
+  Totals mine = all;
+  for (int i = begin; i < end; i += block.SIZE) {
+    const int next = end - i < block.SIZE ? end : i + block.SIZE;
+    foam_loop_in_vectors(FoamMoves<Functor>{functor, &block, i}, i, next);
+    for (int m = 0; m < next - i; m++) judge(i + m, block.get(m), mine);
+  }
+  all = mine;
+  return true;
+}
+template <class Totals, class Functor>
+bool foam_totals_in_blocks(const Functor &, int, int, Totals &, long)
+{
+  return false;
+}
+
+template <class Totals, class Functor>
+FOAM_FLAT void foam_totals_of(const Functor &functor, int begin, int end, Totals &all)
+{
+  if (foam_totals_in_blocks(functor, begin, end, all, 0)) return;
+  const Functor own = functor;
+  Totals mine = all;
+  for (int i = begin; i < end; i++) own(i, mine);
+  all = mine;
 }
 
 #endif

@@ -72,7 +72,8 @@ void PairDurianFoam::gather(unsigned what)
 
 bool PairDurianFoam::can_make_lists() const
 {
-  return (kokkosable || force->newton_pair) && neighbor->style == Neighbor::BIN && !neighbor->exclude &&
+  const bool excludes = neighbor->nex_type || neighbor->nex_group || neighbor->nex_mol;
+  return (kokkosable || force->newton_pair) && neighbor->style == Neighbor::BIN && !excludes &&
          !neighbor->includegroup && atom->molecular == Atom::ATOMIC &&
          !utils::strmatch(force->pair_style, "^hybrid");
 }

@@ -144,12 +144,11 @@ template <class Functor, class Value> struct FoamSlices {
     const int begin = t * slice, end = begin + slice < n ? begin + slice : n;
     foam_loop(functor, begin, end);
   }
-  FOAM_FLAT KOKKOS_INLINE_FUNCTION void operator()(int t, Value &all) const
+  FOAM_FLAT void operator()(int t, Value &all) const
   {
-    const Functor own = functor;
     const int begin = t * slice, end = begin + slice < n ? begin + slice : n;
     Value mine;
-    for (int i = begin; i < end; i++) own(i, mine);
+    foam_totals_of(functor, begin, end, mine);
     all.join(mine);
   }
 };

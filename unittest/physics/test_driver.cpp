@@ -91,11 +91,13 @@ struct ErrorsOfStep {
 
 struct AddErrors {
   using Totals = ErrorsOfStep;
-  void operator()(int, const StepError &error, double reach, ErrorsOfStep &all) const
+  struct Look {};
+  Look look(int) const { return {}; }
+  void operator()(int, const Moved<Look> &moved, ErrorsOfStep &all) const
   {
-    all.largest.raise(error.largest);
-    all.squares += error.squares;
-    all.reach.raise(reach);
+    all.largest.raise(moved.error.largest);
+    all.squares += moved.error.squares;
+    all.reach.raise(moved.reach);
   }
 };
 
