@@ -36,10 +36,9 @@ class Cells {
   // b: places x(i, k), finite numbers, and radii of n bubbles in D dimensions, the first nlocal of which are no ghosts
 
   template <int D, class B> void sort(const B &b, int nlocal, int n, const Near &near);
-  template <int D, class B> bool reaches_owned(const B &b, int i, const Near &near) const;
 
-  // Puts those near bubble i that are no larger than it, and i itself, into found; returns how many. In the order of cells,
-  // and of their numbers in each. Others may look at the same time.
+  // Puts those near bubble i that are no larger than it into found, and perhaps itself; returns how many. In the order of
+  // cells, and of their numbers in each. Ghosts look where owned bubbles are. Others may look at the same time.
 
   template <int D, class B>
   int find(const B &b, int i, const Near &near, std::vector<int> &found) const;
@@ -54,12 +53,13 @@ class Cells {
   double lowest[3], per_width[3];       // corner, cells per length
   double owned_low[3], owned_high[3];
   int count[3];                         // of cells along x, y, z
+  int nlocal = 0;                       // of the bubbles
   std::vector<int> first;               // of a cell, [cells + 1]
   std::vector<int> cell;                // of a bubble
   std::vector<int> index;               // of the bubbles in the order of cells, and their numbers
   std::vector<double> x[3], radius;
 
-  template <int D, class B> void choose_cells(const B &b, int nlocal, int n, const Near &near);
+  template <int D, class B> void choose_cells(const B &b, int n, const Near &near);
   int along(int k, double place) const    // clamped, also where place is far away or no number
   {
     const double c = (place - lowest[k]) * per_width[k];
@@ -70,7 +70,7 @@ class Cells {
 // Cells are as wide as the harmonic mean of what bubbles look: few large ones do not make them wide. Where few bubbles are
 // spread far there are not many more cells than bubbles.
 
-template <int D, class B> void Cells::choose_cells(const B &b, int nlocal, int n, const Near &near)
+template <int D, class B> void Cells::choose_cells(const B &b, int n, const Near &near)
 {
   constexpr double CELLS = 8.0;    // per bubble, at most
   constexpr double FINER = 4.0;    // along x: a row begins and ends where it is of use
@@ -104,9 +104,10 @@ template <int D, class B> void Cells::choose_cells(const B &b, int nlocal, int n
   } while (cells > CELLS * n + 1.0);
 }
 
-template <int D, class B> void Cells::sort(const B &b, int nlocal, int n, const Near &near)
+template <int D, class B> void Cells::sort(const B &b, int owned, int n, const Near &near)
 {
-  choose_cells<D>(b, nlocal, n, near);
+  nlocal = owned;
+  choose_cells<D>(b, n, near);
   first.assign(static_cast<size_t>(count[0]) * count[1] * count[2] + 1, 0);
   cell.resize(n);
   index.resize(n);
@@ -131,14 +132,6 @@ template <int D, class B> void Cells::sort(const B &b, int nlocal, int n, const 
   first[0] = 0;
 }
 
-template <int D, class B> bool Cells::reaches_owned(const B &b, int i, const Near &near) const
-{
-  const double far = near.farthest(b.radius(i));
-  for (int k = 0; k < D; k++)
-    if (!(b.x(i, k) + far >= owned_low[k] && b.x(i, k) - far <= owned_high[k])) return false;
-  return true;
-}
-
 template <int D, class B>
 int Cells::find(const B &b, int i, const Near &near, std::vector<int> &found) const
 {
@@ -146,8 +139,14 @@ int Cells::find(const B &b, int i, const Near &near, std::vector<int> &found) co
   const double xi[3] = {b.x(i, 0), b.x(i, 1), D == 3 ? b.x(i, 2) : 0.0};
   int low[3] = {}, high[3] = {};
   for (int k = 0; k < D; k++) {
-    low[k] = along(k, xi[k] - far);
-    high[k] = along(k, xi[k] + far);
+    double from = xi[k] - far, to = xi[k] + far;
+    if (i >= nlocal) {
+      from = std::max(from, owned_low[k]);
+      to = std::min(to, owned_high[k]);
+      if (!(from <= to)) return 0;
+    }
+    low[k] = along(k, from);
+    high[k] = along(k, to);
   }
   const double *const X = x[0].data(), *const Y = x[1].data(), *const Z = x[2].data(),
                      *const R = radius.data();

@@ -29,6 +29,7 @@ class FoamFound {
   struct List {    // see ListedPairs in foam_rows_kokkos.h
     const Row *rows;
     int inum;    // owned bubbles and ghosts
+    static constexpr bool IN_ORDER = true;
     int index(int n) const { return n; }
     template <class Visit> FOAM_ALWAYS_INLINE void for_each(int i, const Visit &visit) const
     {
@@ -65,8 +66,7 @@ class FoamFound {
       const int begin = s * length, end = begin + length < nall ? begin + length : nall;
       for (int i = begin; i < end; i++) {
         const size_t before = partners.size();
-        const bool looks = i < nlocal || cells->reaches_owned<D>(b, i, near);
-        const int many = looks ? cells->find<D>(b, i, near, found) : 0;
+        const int many = cells->find<D>(b, i, near, found);
         for (int m = 0; m < many; m++)
           if (Foam::is_in_own_row(b, i, found[m], nlocal)) partners.push_back(found[m]);
         rows[i].size = static_cast<int>(partners.size() - before);

@@ -72,6 +72,7 @@ template <class DeviceType, class Near> struct HalfList {
     inum = list->inum;
   }
   int inum;
+  static constexpr bool IN_ORDER = false;
   KOKKOS_INLINE_FUNCTION int index(int n) const { return ilist(n); }
   template <class Visit> FOAM_ALWAYS_INLINE void for_each(int i, const Visit &visit) const
   {
@@ -84,7 +85,8 @@ template <class DeviceType, class Near> struct HalfList {
 };
 
 // List has a row for each n from 0 to list.inum: that of bubble list.index(n), which may be a ghost, with its partners,
-// list.for_each(index, visit).  At least one bubble of a pair is owned.
+// list.for_each(index, visit).  At least one bubble of a pair is owned.  IN_ORDER: partners do not depend on which thread
+// came first.
 
 template <class DeviceType, class List> struct ListedPairs {
   using AT = ArrayTypes<DeviceType>;
@@ -172,10 +174,11 @@ template <class DeviceType, class List> struct SortRows : ListedPairs<DeviceType
   static constexpr const char *NAME = "foam: sort rows";
   using B = typename FoamKokkos<DeviceType>::Bubbles;
   Foam::ComesNear<B, Foam::ReachOfContact> touch;
+  bool in_blocks;    // rows are: nobody guesses
   KOKKOS_INLINE_FUNCTION void operator()(int i) const
   {
     const int begin = this->rows.first(i), end = this->rows.first(i + 1);
-    arrange(i, begin, begin + this->rows.shared(i));
+    if (!(List::IN_ORDER && in_blocks)) arrange(i, begin, begin + this->rows.shared(i));
     arrange(i, begin + this->rows.shared(i), end);
   }
   KOKKOS_INLINE_FUNCTION void arrange(int i, int begin, int end) const
@@ -233,12 +236,12 @@ struct All {
 }    // namespace FoamMakeRows
 
 // list: as ListedPairs wants it. tag: IDs, where they run. range: of forces, in radii; 0: all pairs of a row in the order
-// of IDs
+// of IDs. in_blocks: see Foam::ContactBlocks
 
 template <class DeviceType, class List>
 void foam_make_rows(const FoamKokkos<DeviceType> &space, const List &list,
                     typename ArrayTypes<DeviceType>::t_tagint_1d tag, int nlocal, int nmax,
-                    int chunk, double range, FoamRows<DeviceType> &rows)
+                    int chunk, double range, bool in_blocks, FoamRows<DeviceType> &rows)
 {
   using namespace FoamMakeRows;
   using Numbers = typename FoamRows<DeviceType>::Numbers;
@@ -259,7 +262,7 @@ void foam_make_rows(const FoamKokkos<DeviceType> &space, const List &list,
                            static_cast<size_t>(1.1 * total));
   pairs.rows = rows;
   space.for_each(list.inum, FillRows<DeviceType, List>{pairs});
-  space.for_each(nlocal, SortRows<DeviceType, List>{pairs, {space.bubbles(), {range}, 0.0}});
+  space.for_each(nlocal, SortRows<DeviceType, List>{pairs, {space.bubbles(), {range}, 0.0}, in_blocks});
 }
 
 // the same pairs apart from rows, see Foam::ContactBlocks

@@ -54,7 +54,7 @@ template <class DeviceType> void PairBubbleCollisionKokkos<DeviceType>::take_lis
   atomKK->sync(execution_space, TAG_MASK);
   const auto near = comes_near(space.bubbles());
   foam_make_rows(space, FoamMakeRows::HalfList<DeviceType, decltype(near)>(list, near),
-                 atomKK->k_tag.view<DeviceType>(), atom->nlocal, atom->nmax, 1, 0.0, rows);
+                 atomKK->k_tag.view<DeviceType>(), atom->nlocal, atom->nmax, 1, 0.0, false, rows);
 }
 
 template <class DeviceType> double PairBubbleCollisionKokkos<DeviceType>::memory_usage()

@@ -161,8 +161,10 @@ template <class DeviceType> void PairDurianFoamKokkos<DeviceType>::make_rows()
 
   atomKK->sync(execution_space, TAG_MASK);
   const auto tag = atomKK->k_tag.view<DeviceType>();
+  const bool in_blocks =
+      FoamKokkos<DeviceType>::AS_WITHOUT && chunk > 1 && foam_has_wide_vectors();
   auto make = [&](const auto &pairs) {
-    foam_make_rows(space, pairs, tag, nlocal, atom->nmax, chunk, range(), rows);
+    foam_make_rows(space, pairs, tag, nlocal, atom->nmax, chunk, range(), in_blocks, rows);
   };
   auto of_list = [&]<class Near>(const Near &near) {
     make(FoamMakeRows::HalfList<DeviceType, Near>(list, near));
@@ -182,7 +184,7 @@ template <class DeviceType> void PairDurianFoamKokkos<DeviceType>::make_rows()
       of_list(FoamMakeRows::All());    // it knows sizes
   }
   if constexpr (FoamKokkos<DeviceType>::AS_WITHOUT) {
-    if (chunk > 1 && foam_has_wide_vectors()) foam_own_pairs(space, nlocal, rows);
+    if (in_blocks) foam_own_pairs(space, nlocal, rows);
   }
 }
 

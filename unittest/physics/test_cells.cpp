@@ -56,7 +56,6 @@ template <int D> std::vector<Pair> found(const Some &b, const Cells::Near &near,
   std::vector<int> room;
   cells.sort<D>(b, b.nlocal, b.size(), near);
   for (int i = 0; i < (rows == Rows::OWN ? b.size() : b.nlocal); i++) {
-    if (i >= b.nlocal && !cells.reaches_owned<D>(b, i, near)) continue;
     const int many = cells.find<D>(b, i, near, room);
     for (int m = 0; m < many; m++) {
       const int j = room[m];
