@@ -58,21 +58,39 @@ class FoamFound {
     Foam::Cells::Near near;
     Slice *slices;
     Row *rows;
-    int nlocal, nall, length;    // of a slice
+    int nlocal, nall, threads;
     void operator()(int s) const
     {
-      auto &[partners, found] = slices[s];
-      partners.clear();
-      const int begin = s * length, end = begin + length < nall ? begin + length : nall;
-      for (int i = begin; i < end; i++) {
-        const size_t before = partners.size();
-        const int many = cells->find<D>(b, i, near, found);
-        for (int m = 0; m < many; m++)
-          if (Foam::is_in_own_row(b, i, found[m], nlocal)) partners.push_back(found[m]);
-        rows[i].size = static_cast<int>(partners.size() - before);
-      }
-      const int *next = partners.data();    // it moves no more
-      for (int i = begin; i < end; next += rows[i++].size) rows[i].partners = next;
+      Slice &slice = slices[s];
+      slice.partners.clear();
+      each(s, [&](int i) { rows[i].size = search(i, slice); });
+      const int *next = slice.partners.data();    // it moves no more
+      each(s, [&](int i) {
+        rows[i].partners = next;
+        next += rows[i].size;
+      });
+    }
+    int search(int i, Slice &slice) const
+    {
+      const size_t before = slice.partners.size();
+      const int many = cells->find<D>(b, i, near, slice.found);
+      for (int m = 0; m < many; m++)
+        if (Foam::is_in_own_row(b, i, slice.found[m], nlocal))
+          slice.partners.push_back(slice.found[m]);
+      return static_cast<int>(slice.partners.size() - before);
+    }
+
+    // owned bubbles have more to do than ghosts
+
+    template <class Visit> void each(int s, const Visit &visit) const
+    {
+      range(s, 0, nlocal, visit);
+      range(s, nlocal, nall, visit);
+    }
+    template <class Visit> void range(int s, int begin, int end, const Visit &visit) const
+    {
+      const int length = (end - begin + threads - 1) / threads, first = begin + s * length;
+      for (int i = first; i < first + length && i < end; i++) visit(i);
     }
   };
 };
@@ -84,11 +102,10 @@ FoamFound::List FoamFound::find(const FoamKokkos<DeviceType> &space, int nlocal,
   const auto b = space.bubbles();
   cells.sort<D>(b, nlocal, nall, near);
   rows.resize(nall);
-  const int threads = DeviceType().concurrency(), length = (nall + threads - 1) / threads;
+  const int threads = DeviceType().concurrency();
   slices.resize(threads);
-  if (nall > 0)
-    space.for_all(threads, Search<D, decltype(b)>{b, &cells, near, slices.data(), rows.data(),
-                                                  nlocal, nall, length});
+  space.for_all(threads, Search<D, decltype(b)>{b, &cells, near, slices.data(), rows.data(), nlocal,
+                                                nall, threads});
   return {rows.data(), nall};
 }
 
