@@ -231,11 +231,13 @@ void PairFoam::check_images(double largest)
                      "instead of s, or neighbor nsq"
                    : "");
 
-  // To count a pair of a bubble and its own image once, LAMMPS' lists in a tilted box compare their
-  // places, and take those for equal that differ by less than this
+  // To count a pair of a bubble and its own image once, lists that LAMMPS makes compare their places in a tilted box, and
+  // take those for equal that differ by less than this
 
   const double blurred = 0.01 * force->angstrom;
-  if (domain->triclinic && force->newton_pair && 2.0 * largest >= side && side < blurred)
+  const bool compares = force->newton_pair && !(list_flags & (NeighConst::REQ_NEWTON_OFF |
+                                                              NeighConst::REQ_OCCASIONAL));
+  if (compares && domain->triclinic && 2.0 * largest >= side && side < blurred)
     error->all(FLERR,
                "Pair style {}: contacts of bubbles with their own images in a triclinic box "
                "with sides below {} need newton off, or another unit of length",

@@ -11,7 +11,8 @@ BASE, KOKKOS = (PROJECT / "src" / folder for folder in ("FOAM", "KOKKOS_FOAM"))
 FILES = sorted(file for folder in (BASE, KOKKOS) for file in folder.glob("*.*") if file.suffix in (".h", ".cpp"))
 # of those without a base style, the text beside the table tells the floor
 OWN = {"foam_kokkos": "space", "foam_travelling_kokkos": "space", "foam_rows_kokkos": "contacts",
-       "foam_pass_kokkos": "contacts", "foam_ghosts_kokkos": "contacts"}
+       "foam_pass_kokkos": "contacts", "foam_ghosts_kokkos": "contacts",
+       "foam_found_kokkos": "contacts"}
 
 
 def floors():

@@ -163,13 +163,13 @@ def test_fix_modify(bitwise_lmp):
     ("1e-2 0.0", "kappa 1.0 liquid lsw")])
 def test_fix_modify_without_set_up(lmp, before, words):
     """A term that is switched on is there in a run without set-up, too: the same run as with one, but for
-    the evaluation that the set-up takes."""
+    the evaluation that the set-up takes, and sums in the order of another list: 2e-12 after 20 steps."""
     def after(pre):
         return lmp(foam(f"run 30\nfix_modify gas {words}\nrun 20 {pre}", gas=before), files=data())
 
     plain, other = after("").thermo[-1], after("pre no").thermo[-1]
     for name in ("Time", "PotEng", "f_gas[1]", "f_gas[3]", "f_gas[4]", "f_gas[6]"):
-        assert other[name][-1] == pytest.approx(plain[name][-1], rel=1e-12, abs=1e-14), name
+        assert other[name][-1] == pytest.approx(plain[name][-1], rel=1e-11, abs=1e-14), name
     assert other["f_gas[3]"][-1] != other["f_gas[3]"][0]
 
 

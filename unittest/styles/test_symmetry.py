@@ -19,6 +19,9 @@ VARIANTS = {
     "tiled": dict(ranks=4, before="comm_style tiled", run="balance 1.0 rcb"),
     "list nsq": dict(neighbor="0.3 nsq"),
     "list multi": dict(neighbor="0.3 multi"),
+    "list of LAMMPS": dict(run="group nobody empty\nneigh_modify exclude group nobody nobody"),
+    "list of LAMMPS, 2 ranks": dict(ranks=2, run="group nobody empty\n"
+                                                 "neigh_modify exclude group nobody nobody"),
     "headroom 1": dict(pair="headroom 1.0"),
     "headroom 3": dict(pair="headroom 3.0"),
     "map hash": dict(map="map hash"),
