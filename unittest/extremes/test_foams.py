@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from foams import SHORT
+from runner import on_device
 from scenes import INTEGRATORS, Scene, anywhere, cases, last, radii
 
 PHI = [0.01, 0.3, 0.64, 0.84, 1.0, 1.3]
@@ -211,8 +212,11 @@ def test_own_images_in_a_small_tilted_box(lmp, integrator):
     scene = scene.but(tilt=(0.3 * scene.box[0], 0.0, 0.0))
     assert scene.box[2] < 2 * scene.R.min()
     small, on = scene.scaled(2.0**-10), scene.scaled(2.0**-10).but(before="newton on")
-    a, b, c = last(scene(lmp)), last(small(lmp)), last(on(lmp))
+    a, b = last(scene(lmp)), last(small(lmp))
     assert np.array_equal(a.array("x", "y", "z"), b.array("x", "y", "z") * 2.0**10)
+    if on_device(lmp):
+        return    # neigh full of the KOKKOS package goes with newton off only
+    c = last(on(lmp))
     assert c.array("x", "y", "z") == pytest.approx(b.array("x", "y", "z"), abs=SHORT * small.box[0])
     if not lmp.kokkos:
         result = on.but(neighbor="nsq")(lmp, check=False)
