@@ -366,9 +366,15 @@ void FixFoamIntegrate::pre_exchange()
   if (restart_due || skin_due || pair->outgrown(largest)) {
     list.with_checks([&] { pair->refresh(); });
   }
-  if (restart_due) {
-    atom->setup();
+  if (restart_due) atom->setup();
+
+  // The last bubbles in memory take the places of those that vanish: after a while neighbors are no longer near each other
+
+  constexpr double MANY = 0.1;
+  const double now = gas ? pair->hub.population.bubbles : bubbles_sorted;
+  if (restart_due || now < (1.0 - MANY) * bubbles_sorted) {
     atom->nextsort = update->ntimestep;
+    bubbles_sorted = now;
   }
 }
 /* ----------------------------------------------------------------------

@@ -105,6 +105,8 @@ class FixFoamIntegrate : public FixFoamTravelling {
   FoamHub::Record record;       // for a pair style that is replaced in mid-simulation
   virtual std::vector<double *> progress();
 
+  double bubbles_sorted = 0.0;    // how many there were when they were sorted in memory last
+
   // per bubble; those that travel with it stand in restart files, too
 
   bool wanted(const FoamColumns &) const override;

@@ -117,6 +117,7 @@ void FixFoamIntegrate::check_bubbles()
     if (!std::isfinite(x[0] + x[1] + x[2])) mine.bad_place.raise(atom->tag[i]);
   }
   const Checked all = foam_reduce(mine, world);
+  bubbles_sorted = all.bubbles;
   if (all.bad_radius > 0.0)
     error->all(FLERR,
                "Fix {}: the radius of bubble {:.0f} is zero, negative or not a number: "
