@@ -62,7 +62,10 @@ template <class Fields, class Rates, class Judge> struct Correct {
     moved.look = judge.look(i);
     return moved;
   }
-  FOAM_FUNCTION void operator()(int i, typename Judge::Totals &all) const { judge(i, move(i), all); }
+  FOAM_FUNCTION void operator()(int i, typename Judge::Totals &all) const
+  {
+    judge(i, move(i), all);
+  }
   bool is_plain() const { return !keeps && y.is_plain() && rates.is_plain() && judge.is_plain(); }
 };
 template <class F, class R, class J> Correct(F, R, J, Work<F>, bool, double) -> Correct<F, R, J>;

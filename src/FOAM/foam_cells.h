@@ -50,13 +50,13 @@ class Cells {
   }
 
  private:
-  double lowest[3], per_width[3];       // corner, cells per length
-  double owned_low[3], owned_high[3];
-  int count[3];                         // of cells along x, y, z
-  int nlocal = 0;                       // of the bubbles
-  std::vector<int> first;               // of a cell, [cells + 1]
-  std::vector<int> cell;                // of a bubble
-  std::vector<int> index;               // of the bubbles in the order of cells, and their numbers
+  double lowest[3], per_width[3];        // corner, cells per length
+  double owned_low[3], owned_high[3];    // where those are that are no ghosts
+  int count[3];                          // of cells along x, y, z
+  int nlocal = 0;                        // of the bubbles
+  std::vector<int> first;                // of a cell, [cells + 1]
+  std::vector<int> cell;                 // of a bubble
+  std::vector<int> index;                // of the bubbles in the order of cells, and their numbers
   std::vector<double> x[3], radius;
 
   template <int D, class B> void choose_cells(const B &b, int n, const Near &near);
@@ -75,7 +75,11 @@ template <int D, class B> void Cells::choose_cells(const B &b, int n, const Near
   constexpr double CELLS = 8.0;    // per bubble, at most
   constexpr double FINER = 4.0;    // along x: a row begins and ends where it is of use
   double highest[3], narrow = 0.0, longest = 0.0;
-  for (int k = 0; k < 3; k++) lowest[k] = highest[k] = k < D && n > 0 ? b.x(0, k) : 0.0;
+  for (int k = 0; k < 3; k++) {
+    lowest[k] = highest[k] = k < D && n > 0 ? b.x(0, k) : 0.0;
+    owned_low[k] = INFINITY;    // nowhere
+    owned_high[k] = -INFINITY;
+  }
   for (int i = 0; i < n; i++) {
     for (int k = 0; k < D; k++) {
       lowest[k] = std::min(lowest[k], b.x(i, k));
@@ -149,7 +153,7 @@ int Cells::find(const B &b, int i, const Near &near, std::vector<int> &found) co
     high[k] = along(k, to);
   }
   const double *const X = x[0].data(), *const Y = x[1].data(), *const Z = x[2].data(),
-                     *const R = radius.data();
+                      *const R = radius.data();
   int n = 0;
   for (int cz = low[2]; cz <= high[2]; cz++)
     for (int cy = low[1]; cy <= high[1]; cy++) {
@@ -176,7 +180,8 @@ bool is_in_row(const B &b, int i, int j, int nlocal)    // of i, which is no sma
   if (b.radius(j) < b.radius(i)) return true;
   if (j < nlocal) return j > i;
   if (b.tag(i) != b.tag(j)) return (b.tag(i) > b.tag(j)) == ((b.tag(i) + b.tag(j)) % 2 != 0);
-  constexpr double NOTHING = 1.0e-6;    // of rounding, where sides of a tilted box are added and taken off again
+  constexpr double NOTHING =
+      1.0e-6;    // of rounding, where sides of a tilted box are added and taken off again
   double d[3], most = 0.0;
   for (int k = 0; k < D; k++) {
     d[k] = b.x(j, k) - b.x(i, k);

@@ -96,7 +96,10 @@ template <class Fields, class Rates, class Judge> struct LastStage {
     });
     return {error, stage.work.bubble[i], judge.look(i)};
   }
-  FOAM_FUNCTION void operator()(int i, typename Judge::Totals &all) const { judge(i, move(i), all); }
+  FOAM_FUNCTION void operator()(int i, typename Judge::Totals &all) const
+  {
+    judge(i, move(i), all);
+  }
   bool is_plain() const { return stage.is_plain() && judge.is_plain(); }
 };
 template <class F, class R, class J> LastStage(NextStage<F, R>, J, double) -> LastStage<F, R, J>;

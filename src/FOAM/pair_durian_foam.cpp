@@ -82,7 +82,8 @@ void PairDurianFoam::take_list()
 {
   if (list_made.of(neighbor)) return;
   near_list.numneigh.clear();
-  const bool makes_it = list->occasional && can_make_lists();    // fixes may exclude pairs, later than init_style()
+  const bool makes_it =
+      list->occasional && can_make_lists();    // fixes may exclude pairs, later than init_style()
   if (makes_it)
     Foam::with_dimension(domain->dimension, [&]<int D>() { fill_list<D>(); });
   else if (list->occasional)

@@ -235,8 +235,8 @@ void PairFoam::check_images(double largest)
   // take those for equal that differ by less than this
 
   const double blurred = 0.01 * force->angstrom;
-  const bool compares = force->newton_pair && !(list_flags & (NeighConst::REQ_NEWTON_OFF |
-                                                              NeighConst::REQ_OCCASIONAL));
+  const bool compares = force->newton_pair &&
+                        !(list_flags & (NeighConst::REQ_NEWTON_OFF | NeighConst::REQ_OCCASIONAL));
   if (compares && domain->triclinic && 2.0 * largest >= side && side < blurred)
     error->all(FLERR,
                "Pair style {}: contacts of bubbles with their own images in a triclinic box "

@@ -262,7 +262,8 @@ void foam_make_rows(const FoamKokkos<DeviceType> &space, const List &list,
                            static_cast<size_t>(1.1 * total));
   pairs.rows = rows;
   space.for_each(list.inum, FillRows<DeviceType, List>{pairs});
-  space.for_each(nlocal, SortRows<DeviceType, List>{pairs, {space.bubbles(), {range}, 0.0}, in_blocks});
+  space.for_each(nlocal,
+                 SortRows<DeviceType, List>{pairs, {space.bubbles(), {range}, 0.0}, in_blocks});
 }
 
 // the same pairs apart from rows, see Foam::ContactBlocks

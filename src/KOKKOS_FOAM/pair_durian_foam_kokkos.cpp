@@ -161,8 +161,7 @@ template <class DeviceType> void PairDurianFoamKokkos<DeviceType>::make_rows()
 
   atomKK->sync(execution_space, TAG_MASK);
   const auto tag = atomKK->k_tag.view<DeviceType>();
-  const bool in_blocks =
-      FoamKokkos<DeviceType>::AS_WITHOUT && chunk > 1 && foam_has_wide_vectors();
+  const bool in_blocks = FoamKokkos<DeviceType>::AS_WITHOUT && chunk > 1 && foam_has_wide_vectors();
   auto make = [&](const auto &pairs) {
     foam_make_rows(space, pairs, tag, nlocal, atom->nmax, chunk, range(), in_blocks, rows);
   };
@@ -196,7 +195,8 @@ template <class DeviceType> void PairDurianFoamKokkos<DeviceType>::tell_sizes()
   list->grow(nlocal, nlocal + atom->nghost);
   auto *const listed = static_cast<NeighListKokkos<DeviceType> *>(list);
   listed->grow(nlocal);
-  space.for_all(nlocal, FoamMakeRows::TellSizes<DeviceType>{rows, listed->d_ilist, listed->d_numneigh});
+  space.for_all(nlocal,
+                FoamMakeRows::TellSizes<DeviceType>{rows, listed->d_ilist, listed->d_numneigh});
   list->inum = nlocal;
   list->gnum = 0;
 }

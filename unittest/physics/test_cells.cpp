@@ -124,7 +124,9 @@ template <int D> void each_pair_once_per_owner(const Some &b)
 template <int D> void each_pair_once(const Some &b)
 {
   const auto rows = found<D>(b, CONTACT, Rows::ONCE), every = all<D>(b, CONTACT);
-  const auto owned = [&](const Pair &pair) { return pair[1] < b.nlocal; };
+  const auto owned = [&](const Pair &pair) {
+    return pair[1] < b.nlocal;
+  };
   std::vector<Pair> own_rows, own_every;
   std::copy_if(rows.begin(), rows.end(), std::back_inserter(own_rows), owned);
   std::copy_if(every.begin(), every.end(), std::back_inserter(own_every), owned);
@@ -216,6 +218,13 @@ TEST(Cells, NoneOneAndAllInOnePlace)
   }
   EXPECT_TRUE(found<2>(in_a_row<2>(50, 0.0, 0.0), TOUCH, Rows::ONCE).empty());    // points
   EXPECT_EQ(found<2>(in_a_row<2>(50, 0.0, 0.0), CONTACT, Rows::ONCE).size(), 50u * 49u / 2u);
+}
+
+TEST(Cells, GhostsAlone)    // of a rank without bubbles
+{
+  Some b = in_a_row<3>(50, 1.5, 1.0);
+  b.nlocal = 0;
+  EXPECT_TRUE(found<3>(b, CONTACT, Rows::OWN).empty());
 }
 
 TEST(Cells, SizesAndDistancesOfAllMagnitudes)

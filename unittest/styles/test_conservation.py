@@ -47,8 +47,9 @@ def gas_of(frame, dim):
 EACH_STEP, IN_ALL = 1e-14, 1e-12
 
 
-# A bubble that is used up within a step overshoots by what the tolerance allows.  With lsw in 3D the sum of removed gas,
-# 2 at most, is 0.1 +- 0.1 with abm 1e-3 and -0.6 +- 0.1 with rkc 1e-4 (over all back ends); 0.6 and 0.8 with those here.
+# A bubble that is used up within a step overshoots by what the tolerance allows.  With lsw in 3D the sum of removed
+# gas, 2 at most, is 0.1 +- 0.1 with abm 1e-3 and -0.6 +- 0.1 with rkc 1e-4 (over all back ends); with those here 0.6
+# and 0.8.
 ALL = [(dim, gas, "abm 1e-3") for dim in (2, 3)
        for gas in ("0.1 liquid area", "0.1 liquid lsw", "0.0", "0.3 film no")
        if (dim, gas) != (3, "0.1 liquid lsw")]
