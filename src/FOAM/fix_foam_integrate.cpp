@@ -348,7 +348,11 @@ void FixFoamIntegrate::post_neighbor()
   // sum in the order in which it will be taken from there.
 
   const bool restart_due = update->ntimestep == output->next_restart;
-  if (gas && (restart_due || pair->hub.population.bubbles != bubbles())) take_population();
+  if (!gas) return;
+  if (restart_due || pair->hub.population.bubbles != bubbles()) take_population();
+  const double number = pair->hub.population.bubbles;
+  bubbles_sorted = sorts ? number : MAX(bubbles_sorted, number);
+  sorts = false;
 }
 
 // Bubbles that have outgrown the cutoffs, or another skin, need new ones.  A step that writes a restart file
@@ -371,11 +375,8 @@ void FixFoamIntegrate::pre_exchange()
   // The last bubbles in memory take the places of those that vanish: after a while neighbors are no longer near each other
 
   constexpr double MANY = 0.1;
-  const double now = gas ? pair->hub.population.bubbles : bubbles_sorted;
-  if (restart_due || now < (1.0 - MANY) * bubbles_sorted) {
-    atom->nextsort = update->ntimestep;
-    bubbles_sorted = now;
-  }
+  sorts = restart_due || (gas && pair->hub.population.bubbles < (1.0 - MANY) * bubbles_sorted);
+  if (sorts) atom->nextsort = update->ntimestep;
 }
 /* ----------------------------------------------------------------------
    the end of a run

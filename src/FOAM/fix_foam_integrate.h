@@ -106,6 +106,7 @@ class FixFoamIntegrate : public FixFoamTravelling {
   virtual std::vector<double *> progress();
 
   double bubbles_sorted = 0.0;    // how many there were when they were sorted in memory last
+  bool sorts = false;             // the build that is due sorts them
 
   // per bubble; those that travel with it stand in restart files, too
 

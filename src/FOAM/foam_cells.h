@@ -82,8 +82,9 @@ template <int D, class B> void Cells::choose_cells(const B &b, int n, const Near
   }
   for (int i = 0; i < n; i++) {
     for (int k = 0; k < D; k++) {
-      lowest[k] = std::min(lowest[k], b.x(i, k));
-      highest[k] = std::max(highest[k], b.x(i, k));
+      const double place = b.x(i, k);
+      lowest[k] = std::min(lowest[k], place);
+      highest[k] = std::max(highest[k], place);
       if (i + 1 == nlocal) {
         owned_low[k] = lowest[k];
         owned_high[k] = highest[k];
@@ -101,7 +102,7 @@ template <int D, class B> void Cells::choose_cells(const B &b, int n, const Near
     for (int k = 0; k < 3; k++) {
       per_width[k] = (k == 0 ? FINER : 1.0) / width;
       const double whole = std::floor((highest[k] - lowest[k]) * per_width[k]) + 1.0;
-      count[k] = static_cast<int>(std::min(whole, CELLS * n + 1.0));
+      count[k] = whole > 1.0 ? static_cast<int>(std::min(whole, CELLS * n + 1.0)) : 1;
       cells *= count[k];
     }
     width *= 1.5;

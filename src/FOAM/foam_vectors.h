@@ -10,9 +10,10 @@
 #ifndef LMP_FOAM_VECTORS_H
 #define LMP_FOAM_VECTORS_H
 
-#include <cstring>
-
 #include "foam_physics.h"
+
+#include <cstring>
+#include <type_traits>
 
 // Loops in vectors, on processors of which a vector has four numbers or more: GCC makes a version of a function for each
 // width, and one is chosen when the program starts.  It needs to be told that nobody asks for errno or for traps of
@@ -86,6 +87,7 @@ template <class Functor> void foam_loop(const Functor &functor, int begin, int e
 
 template <class Move> struct FoamMoved {    // of a block; Move: a struct of numbers
   static constexpr int SIZE = 248, NUMBERS = sizeof(Move) / sizeof(double);
+  static_assert(std::is_trivially_copyable_v<Move> && sizeof(Move) % sizeof(double) == 0);
   double number[NUMBERS][SIZE];
   void put(int m, const Move &move)
   {

@@ -44,7 +44,7 @@ class FoamFound {
   double bytes() const;
 
  private:
-  struct Slice {    // of bubbles, the work of a thread
+  struct alignas(64) Slice {    // of bubbles, the work of a thread: no two in a line of the cache
     std::vector<int> partners, found;
   };
   Foam::Cells cells;

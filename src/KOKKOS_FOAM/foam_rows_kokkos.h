@@ -62,6 +62,8 @@ template <class DeviceType, class Near> struct HalfList {
   typename AT::t_int_1d ilist, numneigh;
   typename AT::t_neighbors_2d neighbors;
   Near near;
+  int inum;
+  static constexpr bool IN_ORDER = false;
 
   HalfList(NeighList *list, const Near &near) : near(near)
   {
@@ -71,8 +73,6 @@ template <class DeviceType, class Near> struct HalfList {
     neighbors = listed->d_neighbors;
     inum = list->inum;
   }
-  int inum;
-  static constexpr bool IN_ORDER = false;
   KOKKOS_INLINE_FUNCTION int index(int n) const { return ilist(n); }
   template <class Visit> FOAM_ALWAYS_INLINE void for_each(int i, const Visit &visit) const
   {
@@ -218,14 +218,20 @@ template <class DeviceType> struct OwnPairs {
   }
 };
 
+// Sizes of rows as in a half list: pairs of owned bubbles count once
+
 template <class DeviceType> struct TellSizes {
   static constexpr const char *NAME = "foam: sizes of rows";
   FoamRows<DeviceType> rows;
   typename ArrayTypes<DeviceType>::t_int_1d ilist, numneigh;
+  int nlocal;
   KOKKOS_INLINE_FUNCTION void operator()(int i) const
   {
+    int size = rows.shared(i);
+    for (int m = rows.first(i) + size; m < rows.first(i + 1); m++)
+      if (rows.partner(m) > i || rows.partner(m) >= nlocal) size++;
     ilist(i) = i;
-    numneigh(i) = rows.first(i + 1) - rows.first(i);
+    numneigh(i) = size;
   }
 };
 

@@ -74,7 +74,7 @@ template <class DeviceType> bool PairDurianFoamKokkos<DeviceType>::can_make_list
   return FoamKokkos<DeviceType>::ON_HOST && PairDurianFoam::can_make_lists();
 }
 
-// Without newton LAMMPS looks at all bins around a bubble for half of its pairs, and most pairs reach half as far as
+// Where LAMMPS makes the list: without newton it looks at all bins around a bubble for half of its pairs, and most pairs reach half as far as
 // the largest: few bins as wide as the cutoff are searched faster than many of half that width, LAMMPS' own without a
 // GPU. What users ask for stays. LAMMPS refuses bins a hundred times as wide as the box.
 
@@ -195,8 +195,8 @@ template <class DeviceType> void PairDurianFoamKokkos<DeviceType>::tell_sizes()
   list->grow(nlocal, nlocal + atom->nghost);
   auto *const listed = static_cast<NeighListKokkos<DeviceType> *>(list);
   listed->grow(nlocal);
-  space.for_all(nlocal,
-                FoamMakeRows::TellSizes<DeviceType>{rows, listed->d_ilist, listed->d_numneigh});
+  space.for_all(nlocal, FoamMakeRows::TellSizes<DeviceType>{rows, listed->d_ilist,
+                                                            listed->d_numneigh, nlocal});
   list->inum = nlocal;
   list->gnum = 0;
 }

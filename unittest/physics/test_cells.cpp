@@ -220,6 +220,16 @@ TEST(Cells, NoneOneAndAllInOnePlace)
   EXPECT_EQ(found<2>(in_a_row<2>(50, 0.0, 0.0), CONTACT, Rows::ONCE).size(), 50u * 49u / 2u);
 }
 
+TEST(Cells, PlacesThatAreNoNumbers)    // others are found as ever
+{
+  for (double bad : {NAN_, INF, -INF})
+    for (int which : {0, 50, 99}) {
+      Some b = in_a_row<2>(100, 1.5, 1.0);
+      b.places[which][0] = b.places[which][1] = bad;
+      EXPECT_EQ(found<2>(b, CONTACT, Rows::OWN), all<2>(b, CONTACT));
+    }
+}
+
 TEST(Cells, GhostsAlone)    // of a rank without bubbles
 {
   Some b = in_a_row<3>(50, 1.5, 1.0);
