@@ -110,8 +110,8 @@ def test_started_process_is_lammps(tmp_path):
 
 
 @pytest.mark.parametrize("words, processes", [("", 4), ("--var end 50", 4), ("--var N 1000 --var end 100", 1),
-                                              ("--var end 50 --var N 5000", 2), ("--var N 100000", 4),
-                                              ("--var N 1000 --var N 5000", 2), ("--var N many", 4)])
+                                              ("--var end 50 --var N 2500", 2), ("--var N 100000", 4),
+                                              ("--var N 1000 --var N 4000", 3), ("--var N many", 4)])
 def test_processes_of_the_demo(words, processes):
     """As many as have work; on eight cores up to four."""
     done = subprocess.run(["bash", "-c", 'source "$0" help >/dev/null; cores=8; useful_processes "$@"', DRIVER,
