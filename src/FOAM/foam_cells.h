@@ -180,9 +180,11 @@ bool is_in_row(const B &b, int i, int j, int nlocal)    // of i, which is no sma
 {
   if (b.radius(j) < b.radius(i)) return true;
   if (j < nlocal) return j > i;
-  if (b.tag(i) != b.tag(j)) return (b.tag(i) > b.tag(j)) == ((b.tag(i) + b.tag(j)) % 2 != 0);
-  constexpr double NOTHING =
-      1.0e-6;    // of rounding, where sides of a tilted box are added and taken off again
+  if (b.tag(i) != b.tag(j)) return (b.tag(i) > b.tag(j)) == (((b.tag(i) ^ b.tag(j)) & 1) != 0);
+
+  // sides of a tilted box are added and taken off again: what this leaves of nothing
+
+  constexpr double NOTHING = 1.0e-6;
   double d[3], most = 0.0;
   for (int k = 0; k < D; k++) {
     d[k] = b.x(j, k) - b.x(i, k);

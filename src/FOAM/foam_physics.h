@@ -88,7 +88,7 @@ FOAM_FUNCTION double cube_root(double q)
   // A double below 2^52 with 2^52 added has its whole part in the low bits
 
   constexpr std::uint64_t BITS_OF_2_52 = 0x4330000000000000u;
-  constexpr double START = 1430186361.0;
+  constexpr double START = 1430186361.0;    // 4/3 of 2^20 1023, less what makes |h| least
   std::uint64_t bits;
   double upper, y;
   std::memcpy(&bits, &s, sizeof(s));

@@ -37,8 +37,9 @@
 //   field.move(i, value)    puts a value, and gives the length of the change
 //   field.unit()            change per unit of length
 //
-// rates(i, f) gives f of the state evaluated last, judge.look(i) is what has to be seen of bubble i at
-// the end of a step, and judge(i, moved, totals) adds it to the totals that decide on the step.  A System puts them together on the host:
+// rates(i, f) gives f of the state evaluated last, judge.look(i) is what has to be seen of bubble i at the end of a
+// step, and judge(i, moved, totals) adds it to the totals that decide on the step.  A System puts them together on the
+// host:
 //
 //   System::Fields, System::Totals             types of the fields and of the totals, which are Judge::Totals, too
 //   fields(), rates(), judge(), work()         Fields, Rates, Judge, Work

@@ -74,9 +74,9 @@ template <class DeviceType> bool PairDurianFoamKokkos<DeviceType>::can_make_list
   return FoamKokkos<DeviceType>::ON_HOST && PairDurianFoam::can_make_lists();
 }
 
-// Where LAMMPS makes the list: without newton it looks at all bins around a bubble for half of its pairs, and most pairs reach half as far as
-// the largest: few bins as wide as the cutoff are searched faster than many of half that width, LAMMPS' own without a
-// GPU. What users ask for stays. LAMMPS refuses bins a hundred times as wide as the box.
+// Where LAMMPS makes the list: without newton it looks at all bins around a bubble for half of its pairs, and most pairs
+// reach half as far as the largest: few bins as wide as the cutoff are searched faster than many of half that width,
+// LAMMPS' own without a GPU. What users ask for stays. LAMMPS refuses bins a hundred times as wide as the box.
 
 template <class DeviceType> void PairDurianFoamKokkos<DeviceType>::choose_bins()
 {
